@@ -1,0 +1,37 @@
+# How every room is compiled. No contraction: a fused operation is written where one is meant, so results do not depend
+# on the compiler or the instruction set.
+add_library(boxwood_flags INTERFACE)
+target_compile_options(boxwood_flags INTERFACE -ffp-contract=off -fno-math-errno)
+add_library(boxwood_warnings INTERFACE)
+target_compile_options(boxwood_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                       -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+if(BOXWOOD_SANITIZE)
+  add_compile_options(-fsanitize=${BOXWOOD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${BOXWOOD_SANITIZE})
+endif()
+
+find_program(BOXWOOD_CCACHE ccache)
+if(BOXWOOD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${BOXWOOD_CCACHE})
+endif()
+find_program(BOXWOOD_MOLD mold)
+if(BOXWOOD_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+# boxwood_room(NAME DEPENDENCY...): the static library boxwood_NAME from every source under src/NAME.
+function(boxwood_room name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  if(NOT sources)
+    add_library(boxwood_${name} INTERFACE)
+    target_include_directories(boxwood_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(boxwood_${name} INTERFACE ${ARGN} boxwood_flags)
+    return()
+  endif()
+  add_library(boxwood_${name} STATIC ${sources})
+  target_include_directories(boxwood_${name}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+           $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  target_link_libraries(boxwood_${name} PUBLIC ${ARGN} PRIVATE $<BUILD_INTERFACE:boxwood_warnings> boxwood_flags)
+  target_compile_features(boxwood_${name} PUBLIC cxx_std_20)
+endfunction()

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "boxwood/ray.h"
+#include "boxwood/scene.h"
+#include "boxwood/structure.h"
+
+namespace boxwood {
+
+enum class Query : std::uint8_t { closest_hit, any_hit };
+
+/// Rays of one kind that are asked one kind of question.
+struct RaySet {
+  std::string kind;  ///< "primary", "shadow", "ao", "diffuse1", "random", "axis", "grazing", …
+  Query query = Query::closest_hit;
+  std::vector<Ray> rays;
+};
+
+/// What ray sets to make and from where. Same settings, same scene: same rays, on any machine and thread count.
+struct RaySetSettings {
+  Camera camera;
+  std::uint32_t width = 512, height = 512;  ///< pixels of the camera; primary rays go through pixel centres in 8x8 tiles
+  std::uint32_t bounces = 1;                ///< diffuse bounces: kinds diffuse1 … diffuseN
+  std::uint32_t random_rays = 1u << 17;     ///< size of each set that does not come from the camera
+  float ao_radius = 0;                      ///< world units; 0: a tenth of the scene's diagonal
+  std::uint64_t seed = 1;
+};
+
+/// Every kind `make_ray_sets` knows, in its order, without bounce numbers: primary shadow ao diffuse random axis grazing.
+std::span<const std::string_view> ray_kinds();
+
+/// Makes the sets named in `kinds` (each of ray_kinds()). Secondary rays start from hits found with `structure`; since
+/// every structure finds the same hits, the sets do not depend on which is used. Throws UsageError on an unknown kind.
+std::vector<RaySet> make_ray_sets(const Scene& scene, const Structure& structure, const RaySetSettings& settings,
+                                  std::span<const std::string> kinds);
+
+/// Versioned little-endian binary file with a checksum; format in docs/ray-sets.md. Throws Error naming the file. An
+/// existing file is replaced only once the new one is complete.
+void save_ray_sets(const std::filesystem::path& file, std::span<const RaySet> sets);
+/// Every bound is checked before memory is taken. Throws Error naming the file and what is wrong with it.
+std::vector<RaySet> load_ray_sets(const std::filesystem::path& file);
+
+}  // namespace boxwood

@@ -1,0 +1,64 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "boxwood/counters.h"
+#include "boxwood/ray.h"
+#include "boxwood/recipe.h"
+#include "boxwood/scene.h"
+
+namespace boxwood {
+
+class Layout;
+
+struct BuildOptions {
+  unsigned threads = 0;  ///< 0: as many as the machine has. The tree is the same for any number.
+};
+
+/// What a build cost and what it made.
+struct BuildReport {
+  double build_ms = 0;            ///< wall time from triangles to a structure that can be traced
+  std::size_t bytes = 0;          ///< held by the structure, beyond the caller's mesh
+  double sah_cost = 0;            ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
+  std::uint64_t nodes = 0;        ///< inner nodes and leaves before layout
+  std::uint64_t primitives = 0;   ///< usable unique triangles
+  std::uint64_t left_out = 0;     ///< triangles left out as degenerate or not finite
+};
+
+/// An immutable acceleration structure. Copies share it. All queries are const, thread safe and allocation free.
+class Structure {
+ public:
+  Structure(std::shared_ptr<const Layout> layout, BuildReport report, Recipe recipe);
+
+  /// The nearest hit with t in [ray.t_near, ray.t_far]; Hit::valid() is false on a miss.
+  Hit closest_hit(const Ray& ray) const;
+  /// Whether anything is hit with t in [ray.t_near, ray.t_far].
+  bool any_hit(const Ray& ray) const;
+  /// One hit per ray; the fast path. Throws UsageError when the spans differ in length.
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
+  /// 1 where a ray is blocked, 0 where it is not. Throws UsageError when the spans differ in length.
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+  /// As above, with what each ray cost. Slower; the answers are the same.
+  void closest_hits_counted(std::span<const Ray> rays, std::span<Hit> hits, std::span<RayCounters> counters) const;
+  void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                        std::span<RayCounters> counters) const;
+
+  const BuildReport& report() const { return report_; }
+  const Recipe& recipe() const { return recipe_; }
+
+ private:
+  std::shared_ptr<const Layout> layout_;
+  BuildReport report_;
+  Recipe recipe_;
+};
+
+/// Builds the structure that `recipe` describes over `scene`. Deterministic: same input, same structure, for any number
+/// of threads. Unusable triangles are left out and counted in report(). The scene may be freed afterwards.
+/// Throws UsageError when stages do not fit each other, Error when the scene cannot be built.
+Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options = {});
+Structure build(const Scene& scene, std::string_view recipe = "default", const BuildOptions& options = {});
+
+}  // namespace boxwood

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "boxwood/box.h"
+
+namespace boxwood {
+
+/// A primitive as a builder sees it: its box and its number. 32 bytes, two per cache line; builders permute these.
+struct alignas(32) Reference {
+  Vec3 lower;
+  std::uint32_t primitive = 0;
+  Vec3 upper;
+  std::uint32_t unused = 0;
+
+  Box box() const { return {lower, upper}; }
+  /// Twice the centre on one axis; comparisons and bins do not need the halving.
+  float center2(int axis) const { return lower[axis] + upper[axis]; }
+};
+static_assert(sizeof(Reference) == 32);
+
+/// What builders know of the geometry. They never see triangles or layouts.
+class Geometry {
+ public:
+  virtual ~Geometry() = default;
+  /// Centre of mass of a primitive (mean of a triangle's vertices). Thread safe.
+  virtual Vec3 centroid(std::uint32_t primitive) const = 0;
+  /// Box of the part of a primitive that lies in `region`; empty when nothing does. Thread safe.
+  virtual Box clip(std::uint32_t primitive, const Box& region) const = 0;
+};
+
+/// Consumed by a build: it permutes `references` in place and frees them.
+struct BuildInput {
+  std::vector<Reference> references;  ///< usable primitives only, in order of their numbers
+  const Geometry* geometry = nullptr;  ///< null when only boxes are known; stages that need it must then refuse
+};
+
+}  // namespace boxwood

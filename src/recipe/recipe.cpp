@@ -1,0 +1,197 @@
+#include "boxwood/recipe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "recipe/stage.h"
+#include "options/suggest.h"
+
+namespace boxwood {
+namespace {
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// Splits at `separator`, but not inside parentheses.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (text[i] == separator && depth == 0) {
+      parts.push_back(trim(text.substr(begin, i - begin)));
+      begin = i + 1;
+    }
+  }
+  parts.push_back(trim(text.substr(begin)));
+  return parts;
+}
+
+const Stage& find_stage(std::string_view name) {
+  for (const Stage& stage : stages()) {
+    if (stage.name == name) return stage;
+  }
+  std::vector<std::string> names;
+  for (const Stage& stage : stages()) names.push_back(stage.name);
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  throw UsageError(fmt::format("no recipe stage is called '{}'; {}", name, suggest(name, names)));
+}
+
+const Option& find_option(const Stage& stage, std::string_view name) {
+  std::vector<std::string> names;
+  for (const Option& option : stage.options) {
+    if (option.name == name) return option;
+    names.push_back(option.name);
+  }
+  if (names.empty()) throw UsageError(fmt::format("'{}' takes no options, so not '{}'", stage.name, name));
+  throw UsageError(fmt::format("'{}' has no option '{}'; {}", stage.name, name, suggest(name, names)));
+}
+
+void set_option(StageCall& call, std::string_view argument) {
+  const Stage& stage = *call.stage;
+  const auto equals = argument.find('=');
+  const Option* option = nullptr;
+  if (equals != std::string_view::npos) {
+    option = &find_option(stage, trim(argument.substr(0, equals)));
+    argument = trim(argument.substr(equals + 1));
+  } else {
+    const auto found = std::find_if(stage.options.begin(), stage.options.end(), [](const Option& o) { return o.positional; });
+    if (found == stage.options.end()) {
+      throw UsageError(fmt::format("'{}' needs its options by name, as in {}(name=value), not '{}'", stage.name, stage.name,
+                                   argument));
+    }
+    option = &*found;
+  }
+  try {
+    option->set(call.options, argument);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("option '{}' of '{}' {}", option->name, stage.name, error.what()));
+  }
+}
+
+StageCall parse_call(std::string_view text, std::string_view recipe) {
+  const auto open = text.find('(');
+  const std::string_view name = trim(text.substr(0, open));
+  if (name.empty()) throw UsageError(fmt::format("the recipe '{}' has an empty stage; write STAGE > STAGE > …", recipe));
+  StageCall call{&find_stage(name), {}};
+  call.options = call.stage->defaults;
+  if (open == std::string_view::npos) return call;
+  if (text.back() != ')' || std::count(text.begin(), text.end(), '(') != 1 || std::count(text.begin(), text.end(), ')') != 1) {
+    throw UsageError(fmt::format("'{}' must have its options in one pair of parentheses, as in {}(name=value)", text, name));
+  }
+  const std::string_view arguments = trim(text.substr(open + 1, text.size() - open - 2));
+  if (arguments.empty()) return call;
+  for (const std::string_view argument : split(arguments, ',')) set_option(call, argument);
+  return call;
+}
+
+std::string names_of(StageKind kind) {
+  std::vector<std::string> names;
+  for (const Stage& stage : stages()) {
+    if (stage.kind == kind) names.push_back(stage.name);
+  }
+  return option_text::join(names, ", ");
+}
+
+/// builder > refinement … > layout [> trace], or one peer.
+void check_order(const std::vector<StageCall>& calls) {
+  const auto fail = [](const std::string& what) { throw UsageError(what); };
+  if (calls.front().stage->kind == StageKind::peer) {
+    if (calls.size() > 1) fail(fmt::format("'{}' builds and traces by itself; nothing can follow it", calls[0].stage->name));
+    return;
+  }
+  if (calls.front().stage->kind != StageKind::builder) {
+    fail(fmt::format("a recipe begins with a builder ({}), not with '{}'", names_of(StageKind::builder), calls[0].stage->name));
+  }
+  bool has_layout = false;
+  for (std::size_t i = 1; i < calls.size(); ++i) {
+    const Stage& stage = *calls[i].stage;
+    switch (stage.kind) {
+      case StageKind::builder: fail(fmt::format("a recipe has one builder; '{}' is a second one", stage.name)); break;
+      case StageKind::peer: fail(fmt::format("'{}' builds and traces by itself; it must stand alone", stage.name)); break;
+      case StageKind::refinement:
+        if (has_layout) fail(fmt::format("'{}' changes the tree, so it must stand before the layout", stage.name));
+        break;
+      case StageKind::layout:
+        if (has_layout) fail(fmt::format("a recipe has one layout; '{}' is a second one", stage.name));
+        has_layout = true;
+        break;
+      case StageKind::trace:
+        if (!has_layout || i + 1 != calls.size()) fail("'trace' stands once, at the end, after a layout");
+        break;
+    }
+  }
+  if (!has_layout) {
+    fail(fmt::format("the recipe says how to build but not how to lay out: add one of {}, as in '{} > wide(8)'",
+                     names_of(StageKind::layout), calls[0].stage->name));
+  }
+}
+
+/// Binary trees for wider layouts are collapsed to their width; trees too wide for their layout are refused.
+void fit_arity(std::vector<StageCall>& calls) {
+  if (calls.front().stage->kind == StageKind::peer) return;
+  std::uint32_t arity = 0;
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const Stage& stage = *calls[i].stage;
+    if (!stage.arity) continue;
+    const std::uint32_t own = stage.arity(calls[i].options);
+    if (stage.kind != StageKind::layout) {
+      arity = own;
+    } else if (arity > own) {
+      throw UsageError(fmt::format("'{}' holds nodes of at most {} children, but the stages before it make up to {}; "
+                                   "use a wider layout or a smaller k",
+                                   stage.name, own, arity));
+    } else if (arity == 2 && own > 2) {
+      const StageCall collapse = parse_call(fmt::format("collapse({})", own), "collapse");
+      calls.insert(calls.begin() + static_cast<std::ptrdiff_t>(i), collapse);
+      return;
+    }
+  }
+}
+
+std::string print(const StageCall& call) {
+  std::vector<std::string> arguments;
+  for (const Option& option : call.stage->options) {
+    const std::string value = option.get(call.options);
+    if (option.positional) {
+      arguments.insert(arguments.begin(), value);
+    } else if (value != option.get(call.stage->defaults)) {
+      arguments.push_back(option.name + "=" + value);
+    }
+  }
+  return arguments.empty() ? call.stage->name : fmt::format("{}({})", call.stage->name, fmt::join(arguments, ", "));
+}
+
+}  // namespace
+
+Recipe::Recipe(std::vector<StageCall> stages) : stages_(std::make_shared<const std::vector<StageCall>>(std::move(stages))) {}
+
+Recipe Recipe::parse(std::string_view text) {
+  text = trim(text);
+  for (const Preset& preset : presets()) {
+    if (text == preset.name) return parse(preset.text);
+  }
+  std::vector<StageCall> calls;
+  for (const std::string_view part : split(text, '>')) calls.push_back(parse_call(part, text));
+  check_order(calls);
+  fit_arity(calls);
+  return Recipe(std::move(calls));
+}
+
+std::string Recipe::text() const {
+  std::vector<std::string> parts;
+  for (const StageCall& call : *stages_) {
+    // A trace stage at its defaults says nothing.
+    const std::string part = print(call);
+    if (call.stage->kind != StageKind::trace || part != call.stage->name) parts.push_back(part);
+  }
+  return fmt::format("{}", fmt::join(parts, " > "));
+}
+
+}  // namespace boxwood

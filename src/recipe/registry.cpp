@@ -1,0 +1,31 @@
+// Every stage of every recipe, one line each, and the presets. This is the only file that knows them all.
+#include "build/stages.h"
+#include "layout/stages.h"
+#include "recipe/stage.h"
+#include "refine/stages.h"
+
+namespace boxwood {
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> all = {
+      median_stage(), middle_stage(), equal_stage(), sweep_stage(), binned_stage(),
+      collapse_stage(),
+      binary_stage(), wide_stage(),
+      trace_stage(),
+#ifdef BOXWOOD_EMBREE
+      embree_stage(),
+#endif
+  };
+  return all;
+}
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = {
+      {"fast", "binned(axis=longest, bins=8) > collapse(8) > wide(8)", "quick to build"},
+      {"default", "binned > collapse(8) > wide(8)", "a good tree for a moderate build"},
+      {"best", "sweep(axis=all) > collapse(8) > wide(8)", "the best tree there is yet, slow to build"},
+  };
+  return all;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,76 @@
+#include "structure/mesh_geometry.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_scan.h>
+
+#include <algorithm>
+
+#include "math/clip.h"
+
+namespace boxwood {
+namespace {
+
+Box box_of(const Mesh& mesh, const Triangle& triangle) {
+  Box box;
+  for (const std::uint32_t vertex : triangle) box.grow(mesh.positions[vertex]);
+  return box;
+}
+
+}  // namespace
+
+Vec3 MeshGeometry::centroid(std::uint32_t primitive) const {
+  const auto& [a, b, c] = mesh_.triangles[primitive];
+  return (mesh_.positions[a] + mesh_.positions[b] + mesh_.positions[c]) * (1.0f / 3.0f);
+}
+
+Box MeshGeometry::clip(std::uint32_t primitive, const Box& region) const {
+  const auto& [a, b, c] = mesh_.triangles[primitive];
+  return clip_triangle(mesh_.positions[a], mesh_.positions[b], mesh_.positions[c], region);
+}
+
+std::vector<Reference> MeshGeometry::references() const {
+  constexpr std::size_t chunk = 1 << 14;
+  const std::size_t count = mesh_.triangles.size();
+  const std::size_t chunks = (count + chunk - 1) / chunk;
+  // Two passes: count per chunk, then write each chunk at its place, so that the order never depends on the threads.
+  std::vector<std::size_t> begin(chunks + 1, 0);
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+      begin[c + 1] += is_usable(mesh_, static_cast<std::uint32_t>(i)) ? 1 : 0;
+    }
+  });
+  for (std::size_t c = 0; c < chunks; ++c) begin[c + 1] += begin[c];
+  std::vector<Reference> out(begin[chunks]);
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    std::size_t next = begin[c];
+    for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+      const auto primitive = static_cast<std::uint32_t>(i);
+      if (!is_usable(mesh_, primitive)) continue;
+      const Box box = box_of(mesh_, mesh_.triangles[i]);
+      out[next++] = {box.lower, primitive, box.upper, 0};
+    }
+  });
+  return out;
+}
+
+Box usable_bounds(const Mesh& mesh) {
+  Box bounds;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (is_usable(mesh, i)) bounds.grow(box_of(mesh, mesh.triangles[i]));
+  }
+  return bounds;
+}
+
+std::vector<Reference> instance_references(const Scene& scene, std::span<const Box> mesh_boxes) {
+  std::vector<Reference> out;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Box& box = mesh_boxes[instance.mesh];
+    if (box.empty()) continue;
+    const Box world = instance.object_to_world.box(box);
+    out.push_back({world.lower, i, world.upper, 0});
+  }
+  return out;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,109 @@
+// A ray with everything a node test and a triangle test need, computed once. Compiled once per instruction set.
+#if defined(BOXWOOD_TRACE_PREPARED_RAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_TRACE_PREPARED_RAY_INL_H
+#undef BOXWOOD_TRACE_PREPARED_RAY_INL_H
+#else
+#define BOXWOOD_TRACE_PREPARED_RAY_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+
+#include "boxwood/box.h"
+#include "boxwood/ray.h"
+#include "boxwood/scene.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+// Fused where the instruction set has it, the (slow, equally rounded) library function elsewhere: same bits everywhere.
+HWY_INLINE float fused(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+
+/// Plane distances are fused(plane, inverse, -near_offset) and fused(plane, inverse, -far_offset). The two offsets differ
+/// by twice an error bound, which widens every box by 2^-19 of the largest coordinate involved. That is more than the
+/// rounding of both tests together (17 * 2^-24), so a box that holds a triangle is never missed by a ray that
+/// `hit_triangle` lets hit it, and its entry distance is never above the triangle's t. No infinities, no NaN: directions
+/// parallel to an axis are tilted by 1e-9, far below the bound.
+struct PreparedRay {
+  float origin[3];
+  float inverse[3];
+  float near_offset[3], far_offset[3];
+  int negative[3];  // 1 where the direction is negative: the near plane is the upper one
+  int kx, ky, kz;   // kz: the direction's dominant axis, for the triangle test
+  float shear_x, shear_y, scale_z;
+  float t_near, t_far;
+  bool valid;  // false: outside the limits of `Ray`; hits nothing
+};
+
+HWY_INLINE bool within_limits(const Ray& ray) {
+  const float dx = std::fabs(ray.direction.x), dy = std::fabs(ray.direction.y), dz = std::fabs(ray.direction.z);
+  const float largest = dx > dy ? (dx > dz ? dx : dz) : (dy > dz ? dy : dz);
+  constexpr float limit = largest_coordinate;
+  return dx <= limit && dy <= limit && dz <= limit && largest >= 1 / limit && std::fabs(ray.origin.x) <= limit &&
+         std::fabs(ray.origin.y) <= limit && std::fabs(ray.origin.z) <= limit && ray.t_near <= ray.t_far;
+}
+
+/// `reach`: largest absolute coordinate of anything the ray can meet.
+HWY_INLINE PreparedRay prepare(const Ray& ray, float reach) {
+  PreparedRay out;
+  out.valid = within_limits(ray);
+  out.t_near = ray.t_near;
+  out.t_far = ray.t_far;
+  const float d[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
+  out.origin[0] = ray.origin.x, out.origin[1] = ray.origin.y, out.origin[2] = ray.origin.z;
+
+  const float ax = std::fabs(d[0]), ay = std::fabs(d[1]), az = std::fabs(d[2]);
+  out.kz = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+  out.kx = out.kz == 2 ? 0 : out.kz + 1;
+  out.ky = out.kx == 2 ? 0 : out.kx + 1;
+  out.shear_x = d[out.kx] / d[out.kz];
+  out.shear_y = d[out.ky] / d[out.kz];
+  out.scale_z = 1.0f / d[out.kz];
+
+  const float least = std::fabs(d[out.kz]) * 1e-9f;
+  float magnitude = reach;
+  for (const float o : out.origin) magnitude = std::fabs(o) + reach > magnitude ? std::fabs(o) + reach : magnitude;
+  const float bound = magnitude * 0x1p-19f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float size = std::fabs(d[axis]) < least ? least : std::fabs(d[axis]);
+    out.negative[axis] = std::signbit(d[axis]) ? 1 : 0;
+    out.inverse[axis] = 1.0f / (out.negative[axis] ? -size : size);
+    const float center = out.origin[axis] * out.inverse[axis];
+    const float slack = bound / size;
+    out.near_offset[axis] = center + slack;
+    out.far_offset[axis] = center - slack;
+  }
+  return out;
+}
+
+/// Largest absolute coordinate of a box; 0 for an empty one.
+HWY_INLINE float reach_of(const Box& box) {
+  if (box.empty()) return 0;
+  float reach = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    reach = std::fabs(box.lower[axis]) > reach ? std::fabs(box.lower[axis]) : reach;
+    reach = std::fabs(box.upper[axis]) > reach ? std::fabs(box.upper[axis]) : reach;
+  }
+  return reach;
+}
+
+/// Where the ray enters `box`, or a value above `t_limit` when it does not enter it within [t_near, t_limit].
+HWY_INLINE bool hit_box(const Box& box, const PreparedRay& ray, float t_limit, float& t_entry) {
+  const Vec3* planes = &box.lower;  // [0] lower, [1] upper
+  float entry = ray.t_near, exit = t_limit;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float t0 = fused(planes[ray.negative[axis]][axis], ray.inverse[axis], -ray.near_offset[axis]);
+    const float t1 = fused(planes[1 - ray.negative[axis]][axis], ray.inverse[axis], -ray.far_offset[axis]);
+    entry = t0 > entry ? t0 : entry;
+    exit = t1 < exit ? t1 : exit;
+  }
+  t_entry = entry;
+  return entry <= exit;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
