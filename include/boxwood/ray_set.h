@@ -24,14 +24,16 @@ struct RaySet {
 /// What ray sets to make and from where. Same settings, same scene: same rays, on any machine and thread count.
 struct RaySetSettings {
   Camera camera;
-  std::uint32_t width = 512, height = 512;  ///< pixels of the camera; primary rays go through pixel centres in 8x8 tiles
-  std::uint32_t bounces = 1;                ///< diffuse bounces: kinds diffuse1 … diffuseN
-  std::uint32_t random_rays = 1u << 17;     ///< size of each set that does not come from the camera
-  float ao_radius = 0;                      ///< world units; 0: a tenth of the scene's diagonal
+  std::uint32_t width = 512,
+                height = 512;            ///< pixels of the camera; primary rays go through pixel centres in 8x8 tiles
+  std::uint32_t bounces = 1;             ///< diffuse bounces: kinds diffuse1 … diffuseN
+  std::uint32_t random_rays = 1u << 17;  ///< size of each set that does not come from the camera
+  float ao_radius = 0;                   ///< world units; 0: a tenth of the scene's diagonal
   std::uint64_t seed = 1;
 };
 
-/// Every kind `make_ray_sets` knows, in its order, without bounce numbers: primary shadow ao diffuse random axis grazing.
+/// Every kind `make_ray_sets` knows, in its order, without bounce numbers: primary shadow ao diffuse random axis
+/// grazing.
 std::span<const std::string_view> ray_kinds();
 
 /// Makes the sets named in `kinds` (each of ray_kinds()). Secondary rays start from hits found with `structure`; since

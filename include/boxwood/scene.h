@@ -18,8 +18,8 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< three indices into Mesh::po
 /// Coordinates beyond this magnitude are treated like non-finite ones: products of three of them must stay finite.
 inline constexpr float largest_coordinate = 1e12f;
 
-/// Indexed triangles in object space. `materials` is empty or has one entry (an index into Scene::materials) per triangle;
-/// `normals` and `texture_coordinates` are empty or have one entry per position.
+/// Indexed triangles in object space. `materials` is empty or has one entry (an index into Scene::materials) per
+/// triangle; `normals` and `texture_coordinates` are empty or have one entry per position.
 struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
@@ -66,7 +66,8 @@ struct ImportNotes {
   std::vector<std::string> messages;
 };
 
-/// Meshes, where they are placed, and what is needed to look at them. Triangles keep the number they have in their mesh.
+/// Meshes, where they are placed, and what is needed to look at them. Triangles keep the number they have in their
+/// mesh.
 struct Scene {
   std::string name;
   std::vector<Mesh> meshes;

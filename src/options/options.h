@@ -14,7 +14,7 @@ namespace boxwood {
 struct Option {
   std::string name;
   std::string help;
-  std::string values;  ///< what it takes: "2…16", "longest | all", …
+  std::string values;       ///< what it takes: "2…16", "longest | all", …
   bool positional = false;  ///< may be given without its name, as 4 in wide(4)
   std::function<void(std::any& options, std::string_view text)> set;  ///< throws UsageError("takes …, not '…'")
   std::function<std::string(const std::any& options)> get;
@@ -25,7 +25,8 @@ struct Option {
 template <class T>
 class OptionsOf {
  public:
-  OptionsOf& integer(std::string name, std::uint32_t T::*member, std::uint32_t low, std::uint32_t high, std::string help);
+  OptionsOf& integer(std::string name, std::uint32_t T::*member, std::uint32_t low, std::uint32_t high,
+                     std::string help);
   OptionsOf& real(std::string name, float T::*member, float low, float high, std::string help);
   OptionsOf& flag(std::string name, bool T::*member, std::string help);  ///< on | off
   /// `names[i]` stands for the enumerator with value i.
@@ -74,24 +75,22 @@ OptionsOf<T>& OptionsOf<T>::integer(std::string name, std::uint32_t T::*member, 
 
 template <class T>
 OptionsOf<T>& OptionsOf<T>::real(std::string name, float T::*member, float low, float high, std::string help) {
-  return add({std::move(name), std::move(help), option_text::print_real(low) + "…" + option_text::print_real(high), false,
-              [=](std::any& options, std::string_view text) {
-                std::any_cast<T&>(options).*member = option_text::parse_real(text, low, high);
-              },
-              [=](const std::any& options) {
-                return option_text::print_real(std::any_cast<const T&>(options).*member);
-              }});
+  return add(
+      {std::move(name), std::move(help), option_text::print_real(low) + "…" + option_text::print_real(high), false,
+       [=](std::any& options, std::string_view text) {
+         std::any_cast<T&>(options).*member = option_text::parse_real(text, low, high);
+       },
+       [=](const std::any& options) { return option_text::print_real(std::any_cast<const T&>(options).*member); }});
 }
 
 template <class T>
 OptionsOf<T>& OptionsOf<T>::flag(std::string name, bool T::*member, std::string help) {
-  return add({std::move(name), std::move(help), "on | off", false,
-              [=](std::any& options, std::string_view text) {
-                std::any_cast<T&>(options).*member = option_text::parse_flag(text);
-              },
-              [=](const std::any& options) {
-                return std::string(std::any_cast<const T&>(options).*member ? "on" : "off");
-              }});
+  return add(
+      {std::move(name), std::move(help), "on | off", false,
+       [=](std::any& options, std::string_view text) {
+         std::any_cast<T&>(options).*member = option_text::parse_flag(text);
+       },
+       [=](const std::any& options) { return std::string(std::any_cast<const T&>(options).*member ? "on" : "off"); }});
 }
 
 template <class T>

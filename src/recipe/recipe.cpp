@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "recipe/stage.h"
 #include "options/suggest.h"
+#include "recipe/stage.h"
 
 namespace boxwood {
 namespace {
@@ -61,10 +61,11 @@ void set_option(StageCall& call, std::string_view argument) {
     option = &find_option(stage, trim(argument.substr(0, equals)));
     argument = trim(argument.substr(equals + 1));
   } else {
-    const auto found = std::find_if(stage.options.begin(), stage.options.end(), [](const Option& o) { return o.positional; });
+    const auto found =
+        std::find_if(stage.options.begin(), stage.options.end(), [](const Option& o) { return o.positional; });
     if (found == stage.options.end()) {
-      throw UsageError(fmt::format("'{}' needs its options by name, as in {}(name=value), not '{}'", stage.name, stage.name,
-                                   argument));
+      throw UsageError(fmt::format("'{}' needs its options by name, as in {}(name=value), not '{}'", stage.name,
+                                   stage.name, argument));
     }
     option = &*found;
   }
@@ -78,12 +79,15 @@ void set_option(StageCall& call, std::string_view argument) {
 StageCall parse_call(std::string_view text, std::string_view recipe) {
   const auto open = text.find('(');
   const std::string_view name = trim(text.substr(0, open));
-  if (name.empty()) throw UsageError(fmt::format("the recipe '{}' has an empty stage; write STAGE > STAGE > …", recipe));
+  if (name.empty())
+    throw UsageError(fmt::format("the recipe '{}' has an empty stage; write STAGE > STAGE > …", recipe));
   StageCall call{&find_stage(name), {}};
   call.options = call.stage->defaults;
   if (open == std::string_view::npos) return call;
-  if (text.back() != ')' || std::count(text.begin(), text.end(), '(') != 1 || std::count(text.begin(), text.end(), ')') != 1) {
-    throw UsageError(fmt::format("'{}' must have its options in one pair of parentheses, as in {}(name=value)", text, name));
+  if (text.back() != ')' || std::count(text.begin(), text.end(), '(') != 1 ||
+      std::count(text.begin(), text.end(), ')') != 1) {
+    throw UsageError(
+        fmt::format("'{}' must have its options in one pair of parentheses, as in {}(name=value)", text, name));
   }
   const std::string_view arguments = trim(text.substr(open + 1, text.size() - open - 2));
   if (arguments.empty()) return call;
@@ -103,18 +107,24 @@ std::string names_of(StageKind kind) {
 void check_order(const std::vector<StageCall>& calls) {
   const auto fail = [](const std::string& what) { throw UsageError(what); };
   if (calls.front().stage->kind == StageKind::peer) {
-    if (calls.size() > 1) fail(fmt::format("'{}' builds and traces by itself; nothing can follow it", calls[0].stage->name));
+    if (calls.size() > 1)
+      fail(fmt::format("'{}' builds and traces by itself; nothing can follow it", calls[0].stage->name));
     return;
   }
   if (calls.front().stage->kind != StageKind::builder) {
-    fail(fmt::format("a recipe begins with a builder ({}), not with '{}'", names_of(StageKind::builder), calls[0].stage->name));
+    fail(fmt::format("a recipe begins with a builder ({}), not with '{}'", names_of(StageKind::builder),
+                     calls[0].stage->name));
   }
   bool has_layout = false;
   for (std::size_t i = 1; i < calls.size(); ++i) {
     const Stage& stage = *calls[i].stage;
     switch (stage.kind) {
-      case StageKind::builder: fail(fmt::format("a recipe has one builder; '{}' is a second one", stage.name)); break;
-      case StageKind::peer: fail(fmt::format("'{}' builds and traces by itself; it must stand alone", stage.name)); break;
+      case StageKind::builder:
+        fail(fmt::format("a recipe has one builder; '{}' is a second one", stage.name));
+        break;
+      case StageKind::peer:
+        fail(fmt::format("'{}' builds and traces by itself; it must stand alone", stage.name));
+        break;
       case StageKind::refinement:
         if (has_layout) fail(fmt::format("'{}' changes the tree, so it must stand before the layout", stage.name));
         break;
@@ -144,9 +154,10 @@ void fit_arity(std::vector<StageCall>& calls) {
     if (stage.kind != StageKind::layout) {
       arity = own;
     } else if (arity > own) {
-      throw UsageError(fmt::format("'{}' holds nodes of at most {} children, but the stages before it make up to {}; "
-                                   "use a wider layout or a smaller k",
-                                   stage.name, own, arity));
+      throw UsageError(
+          fmt::format("'{}' holds nodes of at most {} children, but the stages before it make up to {}; "
+                      "use a wider layout or a smaller k",
+                      stage.name, own, arity));
     } else if (arity == 2 && own > 2) {
       const StageCall collapse = parse_call(fmt::format("collapse({})", own), "collapse");
       calls.insert(calls.begin() + static_cast<std::ptrdiff_t>(i), collapse);
@@ -170,7 +181,8 @@ std::string print(const StageCall& call) {
 
 }  // namespace
 
-Recipe::Recipe(std::vector<StageCall> stages) : stages_(std::make_shared<const std::vector<StageCall>>(std::move(stages))) {}
+Recipe::Recipe(std::vector<StageCall> stages)
+    : stages_(std::make_shared<const std::vector<StageCall>>(std::move(stages))) {}
 
 Recipe Recipe::parse(std::string_view text) {
   text = trim(text);

@@ -8,10 +8,8 @@ namespace boxwood {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
-      median_stage(), middle_stage(), equal_stage(), sweep_stage(), binned_stage(),
-      collapse_stage(),
-      binary_stage(), wide_stage(),
-      trace_stage(),
+      median_stage(),   middle_stage(), equal_stage(), sweep_stage(), binned_stage(),
+      collapse_stage(), binary_stage(), wide_stage(),  trace_stage(),
 #ifdef BOXWOOD_EMBREE
       embree_stage(),
 #endif

@@ -27,8 +27,8 @@ struct Contents {
 
 using BuilderFunction = std::function<Tree(const std::any& options, BuildInput input)>;
 using RefinementFunction = std::function<Tree(const std::any& options, Tree tree)>;
-using LayoutFunction =
-    std::function<std::shared_ptr<const Layout>(const std::any& options, Tree tree, const Contents&, const TraceOptions&)>;
+using LayoutFunction = std::function<std::shared_ptr<const Layout>(const std::any& options, Tree tree, const Contents&,
+                                                                   const TraceOptions&)>;
 /// A peer takes the scene whole and brings its own builder and kernels.
 using PeerFunction = std::function<std::shared_ptr<const Layout>(const std::any& options, const Scene& scene)>;
 
@@ -45,8 +45,8 @@ struct Stage {
   RefinementFunction refine;
   LayoutFunction encode;
   PeerFunction trace_peer;
-  /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set it
-  /// keeps the arity it finds.
+  /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set
+  /// it keeps the arity it finds.
   std::function<std::uint32_t(const std::any& options)> arity;
 };
 
@@ -69,8 +69,8 @@ const std::vector<Preset>& presets();
 
 /// The part that all kinds of stages share.
 template <class Options>
-Stage describe(StageKind kind, std::string name, std::string summary, std::string source, OptionsOf<Options> description,
-               std::uint32_t (*arity)(const Options&)) {
+Stage describe(StageKind kind, std::string name, std::string summary, std::string source,
+               OptionsOf<Options> description, std::uint32_t (*arity)(const Options&)) {
   Stage stage;
   stage.kind = kind;
   stage.name = std::move(name);

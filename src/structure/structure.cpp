@@ -2,75 +2,72 @@
 #include "boxwood/structure.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <chrono>
-#include <optional>
+#include <vector>
 
-#include "build/build_input.h"
 #include "layout/layout.h"
 #include "recipe/stage.h"
 #include "structure/mesh_geometry.h"
+#include "structure/pipeline.h"
 #include "tree/statistics.h"
 
 namespace boxwood {
 namespace {
 
-/// The stages of a recipe that work on trees, run on one input after the other.
-class Pipeline {
- public:
-  explicit Pipeline(const Recipe& recipe) {
-    for (const StageCall& call : recipe.stages()) {
-      if (call.stage->kind == StageKind::builder) builder_ = &call;
-      if (call.stage->kind == StageKind::refinement) refinements_.push_back(&call);
-      if (call.stage->kind == StageKind::layout) layout_ = &call;
-      if (call.stage->kind == StageKind::trace) trace_ = std::any_cast<const TraceOptions&>(call.options);
-    }
-  }
+using Clock = std::chrono::steady_clock;
 
-  std::shared_ptr<const Layout> run(BuildInput input, const Contents& contents, BuildReport& report) const {
-    Tree tree = builder_->stage->build(builder_->options, std::move(input));
-    for (const StageCall* call : refinements_) tree = call->stage->refine(call->options, std::move(tree));
-    report.sah_cost += sah_cost(tree);
-    report.nodes += tree.nodes.size();
-    return layout_->stage->encode(layout_->options, std::move(tree), contents, trace_);
-  }
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
 
- private:
-  const StageCall* builder_ = nullptr;
-  std::vector<const StageCall*> refinements_;
-  const StageCall* layout_ = nullptr;
-  TraceOptions trace_;
-};
+/// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
+std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
+                                          BuildReport& report) {
+  const auto begin_tree = Clock::now();
+  Tree tree = pipeline.tree(std::move(input));
+  report.build_ms += milliseconds_since(begin_tree);
+  report.nodes += tree.nodes.size();
+  if (contents.mesh) report.sah_cost += sah_cost(tree);
+  const auto begin_layout = Clock::now();
+  auto layout = pipeline.encode(std::move(tree), contents);
+  report.build_ms += milliseconds_since(begin_layout);
+  report.bytes += layout->bytes();
+  return layout;
+}
 
-std::shared_ptr<const Layout> build_bottom(const Mesh& mesh, const Pipeline& pipeline, BuildReport& report) {
+std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, BuildReport& report) {
+  const auto begin = Clock::now();
   const MeshGeometry geometry(mesh);
   BuildInput input{geometry.references(), &geometry};
+  report.build_ms += milliseconds_since(begin);
   report.primitives += input.references.size();
   report.left_out += mesh.triangles.size() - input.references.size();
   Contents contents;
   contents.mesh = &mesh;
-  return pipeline.run(std::move(input), contents, report);
+  return build_level(pipeline, std::move(input), contents, report);
 }
 
 std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipeline& pipeline, BuildReport& report) {
-  std::vector<std::shared_ptr<const Layout>> bottoms(scene.meshes.size());
-  std::vector<Box> boxes(scene.meshes.size());
-  std::size_t bytes = 0;
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    boxes[m] = usable_bounds(scene.meshes[m]);
-    bottoms[m] = build_bottom(scene.meshes[m], pipeline, report);
-    bytes += bottoms[m]->bytes();
+  std::vector<std::shared_ptr<const Layout>> bottoms;
+  std::vector<Box> boxes;
+  for (const Mesh& mesh : scene.meshes) {
+    boxes.push_back(usable_bounds(mesh));
+    bottoms.push_back(build_mesh(mesh, pipeline, report));
   }
-  BuildInput input{instance_references(scene, boxes), nullptr};
   Contents contents;
   contents.instances = scene.instances;
   contents.bottoms = bottoms;
-  BuildReport top;  // costs of the two levels do not add up; the report speaks of the triangles
-  auto layout = pipeline.run(std::move(input), contents, top);
-  report.nodes += top.nodes;
-  report.bytes = bytes + layout->bytes();
+  return build_level(pipeline, {instance_references(scene, boxes), nullptr}, contents, report);
+}
+
+std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& scene, BuildReport& report) {
+  const auto begin = Clock::now();
+  auto layout = peer.stage->trace_peer(peer.options, scene);
+  report.build_ms = milliseconds_since(begin);
+  report.bytes = layout->bytes();
+  report.primitives = scene.unique_triangles();
   return layout;
 }
 
@@ -83,23 +80,17 @@ void check_same_length(std::size_t rays, std::size_t answers) {
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options) {
   BuildReport report;
   std::shared_ptr<const Layout> layout;
-  const auto work = [&] {
+  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
+  arena.execute([&] {
     const StageCall& first = recipe.stages().front();
     if (first.stage->kind == StageKind::peer) {
-      layout = first.stage->trace_peer(first.options, scene);
-      report.bytes = layout->bytes();
-      for (const Mesh& mesh : scene.meshes) report.primitives += mesh.triangles.size();
+      layout = build_peer(first, scene, report);
     } else if (scene.single_level()) {
-      layout = build_bottom(scene.meshes.front(), Pipeline(recipe), report);
-      report.bytes = layout->bytes();
+      layout = build_mesh(scene.meshes.front(), Pipeline(recipe), report);
     } else {
       layout = build_two_levels(scene, Pipeline(recipe), report);
     }
-  };
-  const auto begin = std::chrono::steady_clock::now();
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
-  arena.execute(work);
-  report.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  });
   return {std::move(layout), report, recipe};
 }
 

@@ -1,0 +1,46 @@
+#include "structure/pipeline.h"
+
+#include <fmt/format.h>
+
+#include "structure/mesh_geometry.h"
+
+namespace boxwood {
+
+Pipeline::Pipeline(const Recipe& recipe) {
+  for (const StageCall& call : recipe.stages()) {
+    switch (call.stage->kind) {
+      case StageKind::builder:
+        builder_ = &call;
+        break;
+      case StageKind::refinement:
+        refinements_.push_back(&call);
+        break;
+      case StageKind::layout:
+        layout_ = &call;
+        break;
+      case StageKind::trace:
+        trace_ = std::any_cast<const TraceOptions&>(call.options);
+        break;
+      case StageKind::peer:
+        throw UsageError(
+            fmt::format("'{}' is a peer: it builds by itself and its tree cannot be seen", call.stage->name));
+    }
+  }
+}
+
+Tree Pipeline::tree(BuildInput input) const {
+  Tree tree = builder_->stage->build(builder_->options, std::move(input));
+  for (const StageCall* call : refinements_) tree = call->stage->refine(call->options, std::move(tree));
+  return tree;
+}
+
+std::shared_ptr<const Layout> Pipeline::encode(Tree tree, const Contents& contents) const {
+  return layout_->stage->encode(layout_->options, std::move(tree), contents, trace_);
+}
+
+Tree tree_of(const Mesh& mesh, const Recipe& recipe) {
+  const MeshGeometry geometry(mesh);
+  return Pipeline(recipe).tree({geometry.references(), &geometry});
+}
+
+}  // namespace boxwood
