@@ -1,0 +1,14 @@
+#!/bin/sh
+# The main job on a scanned mesh and a procedural scene: which structure traces them fastest, and what it costs.
+# usage: demo.sh BOXWOOD OUTPUT_DIR
+set -eu
+boxwood=$1
+out=$2
+bunny=/usr/share/glmark2/models/bunny.obj
+mkdir -p "$out"
+"$boxwood" compare "$bunny" "generate:stadium" --size 512x512 --repeat 5 --images "$out" --force | tee "$out/compare.txt"
+echo
+"$boxwood" inspect "$bunny" -a default | tee "$out/inspect.txt"
+echo
+echo "The table is in $out/compare.txt, the tree's statistics in $out/inspect.txt, renderings and heat maps are:"
+ls "$out"/*.png
