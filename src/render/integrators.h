@@ -1,0 +1,11 @@
+#pragma once
+#include "render/integrator.h"
+
+namespace boxwood {
+
+Integrator eyelight_integrator();
+Integrator ao_integrator();
+Integrator normals_integrator();
+Integrator heatmap_integrator();
+
+}  // namespace boxwood
