@@ -1,0 +1,8 @@
+#pragma once
+#include "recipe/stage.h"
+
+namespace boxwood {
+
+Stage optimal_collapse_stage();
+
+}  // namespace boxwood
