@@ -29,7 +29,7 @@ struct RayKindRow {
   Estimate ratio;                ///< speed over the first recipe's in the same repeat; above 1 is faster
   double ratio_p_value = 1;      ///< signed-rank test that the two are equally fast
   std::uint64_t hits = 0;        ///< rays that hit something
-  std::uint64_t mismatches = 0;  ///< rays answered otherwise than by the first recipe
+  std::uint64_t mismatches = 0;  ///< rays answered otherwise than by the first recipe of our own
   double node_tests_per_ray = 0;
   double primitive_tests_per_ray = 0;
   double steps_per_ray = 0;
