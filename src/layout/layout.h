@@ -10,7 +10,8 @@
 namespace boxwood {
 
 /// An immutable memory layout with its traversal kernels: the only thing a Structure holds. One virtual call per query,
-/// never per node. Every layout gives the same answers, to the bit.
+/// and one per visit of an instance, never per node. Every layout gives the same answers, to the bit; only a peer,
+/// whose triangle test is its own, does not.
 class Layout {
  public:
   virtual ~Layout() = default;
@@ -24,8 +25,16 @@ class Layout {
   virtual void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                                 std::span<RayCounters> counters) const = 0;
 
-  /// Bytes held, beyond the caller's mesh.
+  /// As a bottom level: replaces `best` when this level, placed as `instance`, has a hit that wins over it. `ray` is in
+  /// this level's space. Adds to `counters` unless null. These defaults work through the queries above; kernels of our
+  /// own override them, to start from the cut-off that `best` is.
+  virtual void closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const;
+  virtual bool any_below(const Ray& ray, RayCounters* counters) const;
+
+  /// Bytes held, beyond the caller's mesh and the bottom levels.
   virtual std::size_t bytes() const = 0;
 };
+
+RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 
 }  // namespace boxwood

@@ -21,11 +21,11 @@ namespace HWY_NAMESPACE {
 // Fused where the instruction set has it, the (slow, equally rounded) library function elsewhere: same bits everywhere.
 HWY_INLINE float fused(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 
-/// Plane distances are fused(plane, inverse, -near_offset) and fused(plane, inverse, -far_offset). The two offsets differ
-/// by twice an error bound, which widens every box by 2^-19 of the largest coordinate involved. That is more than the
-/// rounding of both tests together (17 * 2^-24), so a box that holds a triangle is never missed by a ray that
-/// `hit_triangle` lets hit it, and its entry distance is never above the triangle's t. No infinities, no NaN: directions
-/// parallel to an axis are tilted by 1e-9, far below the bound.
+/// Plane distances are fused(plane, inverse, -near_offset) and fused(plane, inverse, -far_offset). The two offsets
+/// differ by twice an error bound, which widens every box by 2^-19 of the largest coordinate involved. That is more
+/// than the rounding of both tests together (28 * 2^-24), so a box that holds a triangle is never missed by a ray that
+/// `hit_triangle` lets hit it, and its entry distance is never above the triangle's t. No NaN: directions parallel to
+/// an axis are tilted by 1e-9, far below the bound, and offsets that overflow become infinities that let the ray enter.
 struct PreparedRay {
   float origin[3];
   float inverse[3];
@@ -45,8 +45,9 @@ HWY_INLINE bool within_limits(const Ray& ray) {
          std::fabs(ray.origin.y) <= limit && std::fabs(ray.origin.z) <= limit && ray.t_near <= ray.t_far;
 }
 
-/// `reach`: largest absolute coordinate of anything the ray can meet.
-HWY_INLINE PreparedRay prepare(const Ray& ray, float reach) {
+/// `reach`: largest absolute coordinate of anything the ray can meet. `gain` >= 1 multiplies the error bound; levels
+/// whose leaves map the ray by a transform need more than 1 (see instance_error.h).
+HWY_INLINE PreparedRay prepare(const Ray& ray, float reach, float gain = 1) {
   PreparedRay out;
   out.valid = within_limits(ray);
   out.t_near = ray.t_near;
@@ -63,9 +64,10 @@ HWY_INLINE PreparedRay prepare(const Ray& ray, float reach) {
   out.scale_z = 1.0f / d[out.kz];
 
   const float least = std::fabs(d[out.kz]) * 1e-9f;
-  float magnitude = reach;
+  // Below 2^-26 the triangle test's products leave the range of normal floats; its errors are then absolute.
+  float magnitude = 0x1p-26f;
   for (const float o : out.origin) magnitude = std::fabs(o) + reach > magnitude ? std::fabs(o) + reach : magnitude;
-  const float bound = magnitude * 0x1p-19f;
+  const float bound = magnitude * gain * 0x1p-19f;
   for (int axis = 0; axis < 3; ++axis) {
     const float size = std::fabs(d[axis]) < least ? least : std::fabs(d[axis]);
     out.negative[axis] = std::signbit(d[axis]) ? 1 : 0;
@@ -89,10 +91,10 @@ HWY_INLINE float reach_of(const Box& box) {
   return reach;
 }
 
-/// Where the ray enters `box`, or a value above `t_limit` when it does not enter it within [t_near, t_limit].
-HWY_INLINE bool hit_box(const Box& box, const PreparedRay& ray, float t_limit, float& t_entry) {
+/// Whether the ray enters `box` with t in [t_from, t_limit], and where.
+HWY_INLINE bool hit_box(const Box& box, const PreparedRay& ray, float t_from, float t_limit, float& t_entry) {
   const Vec3* planes = &box.lower;  // [0] lower, [1] upper
-  float entry = ray.t_near, exit = t_limit;
+  float entry = t_from, exit = t_limit;
   for (int axis = 0; axis < 3; ++axis) {
     const float t0 = fused(planes[ray.negative[axis]][axis], ray.inverse[axis], -ray.near_offset[axis]);
     const float t1 = fused(planes[1 - ray.negative[axis]][axis], ray.inverse[axis], -ray.far_offset[axis]);
@@ -101,6 +103,11 @@ HWY_INLINE bool hit_box(const Box& box, const PreparedRay& ray, float t_limit, f
   }
   t_entry = entry;
   return entry <= exit;
+}
+
+/// The same from the ray's t_near on.
+HWY_INLINE bool hit_box(const Box& box, const PreparedRay& ray, float t_limit, float& t_entry) {
+  return hit_box(box, ray, ray.t_near, t_limit, t_entry);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,6 @@
 // The one ray-triangle test. Watertight: after Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", with
-// exact signs from Kahan's difference of products instead of their fallback to double. Compiled once per instruction set.
+// exact signs from Kahan's difference of products instead of their fallback to double. Compiled once per instruction
+// set.
 #if defined(BOXWOOD_TRACE_TRIANGLE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_TRACE_TRIANGLE_INL_H
 #undef BOXWOOD_TRACE_TRIANGLE_INL_H
@@ -26,9 +27,13 @@ struct TriangleHit {
   float t, v, w, determinant;  // barycentric u = v / determinant, v = w / determinant (weights of vertices 1 and 2)
 };
 
-/// Two-sided. Edges and vertices belong to every triangle that has them, so a ray can not slip between two triangles that
-/// share them. Triangles seen edge-on are missed; their neighbours are not. The range of t is the caller's to check, with
-/// comparisons that NaN fails.
+/// Projected areas below this are too near to the smallest normal float for t to be trusted: such a triangle is seen
+/// edge-on, or its sides are below 1e-15.
+inline constexpr float least_determinant = 0x1p-100f;
+
+/// Two-sided. Edges and vertices belong to every triangle that has them, so a ray can not slip between two triangles
+/// that share them. Triangles seen edge-on are missed; their neighbours are not. The range of t is the caller's to
+/// check, with comparisons that NaN fails.
 HWY_INLINE bool hit_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const PreparedRay& ray, TriangleHit& hit) {
   const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
   const float az = a[kz] - ray.origin[kz], bz = b[kz] - ray.origin[kz], cz = c[kz] - ray.origin[kz];
@@ -44,7 +49,7 @@ HWY_INLINE bool hit_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const 
   const float w = difference_of_products(bx, ay, by, ax);
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
   const float determinant = (u + v) + w;
-  if (determinant == 0) return false;
+  if (std::fabs(determinant) < least_determinant) return false;
 
   const float z = fused(u, az, fused(v, bz, w * cz));
   hit = {(z / determinant) * ray.scale_z, v, w, determinant};

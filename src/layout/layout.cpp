@@ -1,0 +1,44 @@
+#include "layout/layout.h"
+
+#include <algorithm>
+
+namespace boxwood {
+
+RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
+  sum.steps += more.steps;
+  sum.leaves += more.leaves;
+  sum.node_tests += more.node_tests;
+  sum.node_hits += more.node_hits;
+  sum.primitive_tests += more.primitive_tests;
+  return sum;
+}
+
+void Layout::closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const {
+  Ray shortened = ray;
+  shortened.t_far = std::min(ray.t_far, best.t);
+  Hit hit;
+  if (counters) {
+    RayCounters spent;
+    closest_hits_counted({&shortened, 1}, {&hit, 1}, {&spent, 1});
+    *counters += spent;
+  } else {
+    hit = closest_hit(shortened);
+  }
+  if (!hit.valid()) return;
+  hit.instance = instance;
+  const bool wins = hit.t != best.t                 ? hit.t < best.t
+                    : hit.instance != best.instance ? hit.instance < best.instance
+                                                    : hit.primitive < best.primitive;
+  if (wins) best = hit;
+}
+
+bool Layout::any_below(const Ray& ray, RayCounters* counters) const {
+  if (!counters) return any_hit(ray);
+  RayCounters spent;
+  std::uint8_t blocked = 0;
+  any_hits_counted({&ray, 1}, {&blocked, 1}, {&spent, 1});
+  *counters += spent;
+  return blocked != 0;
+}
+
+}  // namespace boxwood
