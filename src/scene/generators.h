@@ -22,8 +22,8 @@ struct Generator {
 /// Every generator there is, in the order in which `boxwood scenes` prints them.
 const std::vector<Generator>& generators();
 
-/// Makes the scene of "NAME" or "NAME(option=value, …)", the text after "generate:". No cameras, no notes. Throws
-/// UsageError that names the nearest valid generator or option.
+/// Makes the scene of "NAME" or "NAME(option=value, …)", the text after "generate:". Only scenes that need a point of
+/// view of their own have cameras. Throws UsageError that names the nearest valid generator or option.
 Scene generate(std::string_view call);
 
 }  // namespace boxwood

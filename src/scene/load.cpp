@@ -1,0 +1,62 @@
+// From a path or a generator's name to a scene that can be built and looked at.
+#include <fmt/format.h>
+
+#include "boxwood/scene.h"
+#include "scene/cameras.h"
+#include "scene/generators.h"
+#include "scene/importers/importer.h"
+#include "scene/mesh_cache.h"
+#include "scene/placement.h"
+
+namespace boxwood {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Meshes, merged and counted, without cameras other than the file's.
+Scene import_and_merge(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  const bool cached = !error && size >= smallest_cached_file;
+  if (cached) {
+    if (std::optional<Scene> earlier = read_cached(file)) return std::move(*earlier);
+  }
+  Imported imported = import_file(file);
+  if (const std::string problem = find_bad_index(imported.scene); !problem.empty()) {
+    throw Error(fmt::format("{}: {}; the file is damaged, get it again", file.string(), problem));
+  }
+  Scene scene = merge_single_placements(std::move(imported.scene));
+  scene.name = file.stem().string();
+  count_unusable(scene);
+  if (cached) write_cached(scene, imported.files);
+  return scene;
+}
+
+Scene load_file(const fs::path& file) {
+  Scene scene = import_and_merge(file);
+  const fs::path sidecar = camera_sidecar(file);
+  std::error_code ignored;
+  if (fs::is_regular_file(sidecar, ignored)) {
+    const std::vector<Camera> cameras = read_cameras(sidecar);
+    scene.cameras.insert(scene.cameras.begin(), cameras.begin(), cameras.end());
+  }
+  return scene;
+}
+
+Scene load_generated(std::string_view call) {
+  Scene scene = merge_single_placements(generate(call));
+  count_unusable(scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene load(std::string_view path_or_generator) {
+  constexpr std::string_view generator = "generate:";
+  Scene scene = path_or_generator.starts_with(generator) ? load_generated(path_or_generator.substr(generator.size()))
+                                                         : load_file(fs::path(path_or_generator));
+  scene.cameras.push_back(frame(scene.bounds()));
+  return scene;
+}
+
+}  // namespace boxwood
