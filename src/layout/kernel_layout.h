@@ -1,0 +1,82 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "layout/layout.h"
+#include "layout/leaves.h"
+
+namespace boxwood {
+
+/// Nodes of some layout over leaf content of some kind: all that a kernel reads.
+template <class Nodes, class Leaves>
+struct Level {
+  Nodes nodes;
+  Leaves leaves;
+  Extent extent;
+  bool cull = true;
+};
+
+/// The kernels of one level, compiled for one instruction set and one way of walking. A one-ray kernel improves `best`
+/// and leaves it alone when nothing wins over it; the counted ones add to `counters`.
+template <class Nodes, class Leaves>
+struct Kernels {
+  using LevelType = Level<Nodes, Leaves>;
+  using Closest = void (*)(const LevelType&, const Ray&, std::uint32_t instance, Hit& best, RayCounters* counters);
+  using Any = bool (*)(const LevelType&, const Ray&, RayCounters* counters);
+  Closest closest = nullptr, closest_counted = nullptr;
+  Any any = nullptr, any_counted = nullptr;
+  void (*closest_batch)(const LevelType&, std::span<const Ray>, std::span<Hit>) = nullptr;
+  void (*any_batch)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>) = nullptr;
+};
+
+/// A layout that is nothing but a level and its kernels.
+template <class Nodes, class Leaves>
+class KernelLayout final : public Layout {
+ public:
+  KernelLayout(Level<Nodes, Leaves> level, const Kernels<Nodes, Leaves>& kernels)
+      : level_(std::move(level)), kernels_(kernels) {}
+
+  Hit closest_hit(const Ray& ray) const override {
+    Hit best;
+    kernels_.closest(level_, ray, Leaves::first_instance, best, nullptr);
+    return best;
+  }
+  bool any_hit(const Ray& ray) const override { return kernels_.any(level_, ray, nullptr); }
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    kernels_.closest_batch(level_, rays, hits);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const override {
+    kernels_.any_batch(level_, rays, blocked);
+  }
+  void closest_hits_counted(std::span<const Ray> rays, std::span<Hit> hits,
+                            std::span<RayCounters> counters) const override {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i] = {};
+      counters[i] = {};
+      kernels_.closest_counted(level_, rays[i], Leaves::first_instance, hits[i], &counters[i]);
+    }
+  }
+  void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                        std::span<RayCounters> counters) const override {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      counters[i] = {};
+      blocked[i] = kernels_.any_counted(level_, rays[i], &counters[i]) ? 1 : 0;
+    }
+  }
+  void closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const override {
+    (counters ? kernels_.closest_counted : kernels_.closest)(level_, ray, instance, best, counters);
+  }
+  bool any_below(const Ray& ray, RayCounters* counters) const override {
+    return (counters ? kernels_.any_counted : kernels_.any)(level_, ray, counters);
+  }
+  std::size_t bytes() const override { return level_.nodes.bytes() + level_.leaves.bytes(); }
+
+ private:
+  Level<Nodes, Leaves> level_;
+  Kernels<Nodes, Leaves> kernels_;
+};
+
+}  // namespace boxwood

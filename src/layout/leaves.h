@@ -1,0 +1,60 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "boxwood/box.h"
+#include "boxwood/ray.h"
+#include "boxwood/transform.h"
+#include "layout/layout.h"
+#include "recipe/stage.h"
+#include "trace/leaf_triangle.h"
+
+namespace boxwood {
+
+/// The `instance` of a walk whose leaves know their instances themselves.
+inline constexpr std::uint32_t own_instances = no_primitive;
+
+/// What prepare() must know of everything below a root.
+struct Extent {
+  float reach = 0;
+  float gain = 1;
+};
+
+/// Leaf content of a bottom level: triangles in leaf order.
+struct TriangleLeaves {
+  std::vector<LeafTriangle> triangles;
+
+  std::size_t bytes() const { return triangles.size() * sizeof(LeafTriangle); }
+  static constexpr std::uint32_t first_instance = 0;  ///< of a query that starts here
+};
+
+/// One instance in a leaf. 64 bytes, one cache line: the map into its space, its structure, its number.
+struct InstanceLeaf {
+  Transform world_to_object;
+  const Layout* bottom = nullptr;
+  std::uint32_t instance = 0;
+};
+static_assert(sizeof(InstanceLeaf) == 64);
+
+/// Leaf content of a level above: instances in leaf order.
+struct InstanceLeaves {
+  std::vector<InstanceLeaf> instances;
+  std::vector<std::shared_ptr<const Layout>> bottoms;  ///< keeps what `instances` point to
+
+  std::size_t bytes() const { return instances.size() * sizeof(InstanceLeaf); }
+  static constexpr std::uint32_t first_instance = own_instances;
+};
+
+/// Copies the triangles that `references` name. Parallel; O(references).
+TriangleLeaves triangle_leaves(std::span<const std::uint32_t> references, const Mesh& mesh);
+/// Throws Error naming an instance whose transform has no inverse. O(references).
+InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const Contents& contents);
+
+/// The error bound that rays need below a root with box `bounds`. For a level above, what its leaves round is added.
+Extent extent_of(const TriangleLeaves& leaves, const Box& bounds, const Contents& contents);
+Extent extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents);
+
+}  // namespace boxwood
