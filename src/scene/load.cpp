@@ -28,6 +28,9 @@ Scene import_and_merge(const fs::path& file) {
   Scene scene = merge_single_placements(std::move(imported.scene));
   scene.name = file.stem().string();
   count_unusable(scene);
+  if (scene.empty()) {
+    scene.notes.messages.push_back(fmt::format("{}: has no triangles; nothing in it can be hit", file.string()));
+  }
   if (cached) write_cached(scene, imported.files);
   return scene;
 }

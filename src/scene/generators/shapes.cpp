@@ -88,7 +88,7 @@ Mesh torus_mesh(std::uint32_t detail) {
   return tube_mesh(2 * detail, detail, [&](double along, double around) {
     const SineCosine ring = sine_cosine_of_turns(along), circle = sine_cosine_of_turns(around);
     const double radius = 1 + tube * circle.cosine;
-    return Vec3{static_cast<float>(radius * ring.sine), static_cast<float>(tube * circle.sine),
+    return Vec3{static_cast<float>(radius * ring.sine), static_cast<float>(-tube * circle.sine),
                 static_cast<float>(radius * ring.cosine)};
   });
 }

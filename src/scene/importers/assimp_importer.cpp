@@ -124,6 +124,8 @@ class AssimpConverter {
   }
 
   void add_cameras() {
+    // Assimp repeats the translation of a glTF camera's node as the camera's own position.
+    const bool is_gltf = file_.ends_with("gltf") || file_.ends_with("glb");
     for (unsigned i = 0; i < from_.mNumCameras; ++i) {
       const aiCamera& camera = *from_.mCameras[i];
       const Transform to_world = transform_of(camera.mName);
@@ -131,8 +133,8 @@ class AssimpConverter {
       const float fov = camera.mAspect > 1 ? horizontal / camera.mAspect : horizontal;
       const Vec3 direction = to_world.vector(to_vec3(camera.mLookAt));
       if (!(is_finite(direction) && length(direction) > 0 && fov > 0 && fov < 180)) continue;
-      scene_.cameras.push_back({camera.mName.C_Str(), to_world.point(to_vec3(camera.mPosition)), direction,
-                                to_world.vector(to_vec3(camera.mUp)), fov});
+      scene_.cameras.push_back({camera.mName.C_Str(), to_world.point(is_gltf ? Vec3{} : to_vec3(camera.mPosition)),
+                                direction, to_world.vector(to_vec3(camera.mUp)), fov});
     }
   }
 

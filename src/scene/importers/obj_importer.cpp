@@ -1,6 +1,7 @@
 // Wavefront OBJ: vertices, faces and materials, in one mesh. Groups, smoothing and free-form surfaces are passed over.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <unordered_map>
 
@@ -21,6 +22,9 @@ class ObjReader {
 
   Imported read() {
     for (; !cursor_.at_end(); cursor_.next_line()) read_statement(cursor_.word());
+    if (vertices_.positions.empty()) {
+      throw Error(fmt::format("{}: has no vertices, so it is no Wavefront OBJ text; check what it is", file_.string()));
+    }
     vertices_.move_into(mesh_);
     Scene& scene = imported_.scene;
     for (const RepeatedNote* note : {&out_of_range_, &too_short_, &not_faces_, &unknown_material_}) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <limits>
@@ -30,15 +31,19 @@ std::string read_whole_file(const std::filesystem::path& file) {
   return bytes;
 }
 
+/// Bytes of a joined line's end, a backslash before a line feed, at the cursor; 0 when there is none.
+std::size_t TextCursor::join_length() const {
+  if (text_[position_] != '\\') return 0;
+  if (text_.substr(position_, 2) == "\\\n") return 2;
+  return text_.substr(position_, 3) == "\\\r\n" ? 3 : 0;
+}
+
 void TextCursor::skip_blanks() {
   while (position_ < text_.size()) {
     if (is_blank(text_[position_])) {
       ++position_;
-    } else if (text_[position_] == '\\' && text_.substr(position_ + 1, 1) == "\n") {
-      position_ += 2;
-      ++line_;
-    } else if (text_[position_] == '\\' && text_.substr(position_ + 1, 2) == "\r\n") {
-      position_ += 3;
+    } else if (const std::size_t join = join_length(); join > 0) {
+      position_ += join;
       ++line_;
     } else {
       return;
@@ -49,7 +54,9 @@ void TextCursor::skip_blanks() {
 std::string_view TextCursor::word() {
   skip_blanks();
   const std::size_t begin = position_;
-  while (position_ < text_.size() && !is_blank(text_[position_]) && text_[position_] != '\n') ++position_;
+  while (position_ < text_.size() && !is_blank(text_[position_]) && text_[position_] != '\n' && join_length() == 0) {
+    ++position_;
+  }
   return text_.substr(begin, position_ - begin);
 }
 

@@ -33,6 +33,7 @@ class TextCursor {
   std::string place() const;
 
  private:
+  std::size_t join_length() const;
   void skip_blanks();
   std::string_view text_;
   std::string file_;
