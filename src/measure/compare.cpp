@@ -1,6 +1,7 @@
 #include "measure/compare.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -184,7 +185,11 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
 Comparison compare(const Scene& scene, std::span<const Recipe> recipes, std::span<const RaySet> ray_sets,
                    const CompareSettings& settings, ProgressSink* progress) {
   check(recipes, ray_sets);
-  tbb::task_arena arena(settings.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(settings.threads));
+  const auto available = static_cast<unsigned>(tbb::info::default_concurrency());
+  const unsigned threads = settings.threads > 0 ? settings.threads : available;
+  // As many as asked for, even if the machine has fewer.
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, available));
+  tbb::task_arena arena(static_cast<int>(threads));
   return arena.execute([&] { return compare_in_arena(scene, recipes, ray_sets, settings, progress); });
 }
 

@@ -22,6 +22,9 @@ void check(const RaySetSettings& settings, std::span<const std::string> kinds) {
     const std::vector<std::string> names(kinds_in_order.begin(), kinds_in_order.end());
     throw UsageError(fmt::format("unknown kind of rays '{}': {}", kind, suggest(kind, names)));
   }
+  if (settings.bounces == 0 && std::ranges::find(kinds, "diffuse") != kinds.end()) {
+    throw UsageError("diffuse rays need at least 1 bounce");
+  }
   if (!(settings.ao_radius >= 0 && std::isfinite(settings.ao_radius))) {
     throw UsageError(fmt::format("ao_radius must be 0 or more, not {}", settings.ao_radius));
   }
