@@ -32,7 +32,7 @@ class Geometry {
 
 /// Consumed by a build: it permutes `references` in place and frees them.
 struct BuildInput {
-  std::vector<Reference> references;  ///< usable primitives only, in order of their numbers
+  std::vector<Reference> references;   ///< usable primitives only, in order of their numbers
   const Geometry* geometry = nullptr;  ///< null when only boxes are known; stages that need it must then refuse
 };
 

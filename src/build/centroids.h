@@ -18,7 +18,7 @@ class Centroids {
   Float4 operator()(const Reference& reference) const {
     if (!means_.empty()) {
       const Vec3& mean = means_[reference.primitive];
-      return {mean.x, mean.y, mean.z, 0};
+      return Float4{mean.x, mean.y, mean.z, 0};
     }
     const Box4 box = box4(reference);
     return box.lower + box.upper;

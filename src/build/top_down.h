@@ -36,8 +36,8 @@ struct Cuts {
   }
 };
 
-/// Permutes the set so that every part is contiguous and says where the cuts are. No cuts: make a leaf, or, when the set
-/// is above the leaf limit, halve it by count. Thread safe, deterministic.
+/// Permutes the set so that every part is contiguous and says where the cuts are. No cuts: make a leaf, or, when the
+/// set is above the leaf limit, halve it by count. Thread safe, deterministic.
 using Splitter = std::function<Cuts(const ReferenceSet& set)>;
 
 /// Splits `input` from the top down until the splitter stops, with at most `leaf_limit` references in a leaf. Below 100

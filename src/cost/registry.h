@@ -14,7 +14,7 @@ namespace boxwood {
 struct CostModelEntry {
   std::string name;
   std::string summary;
-  std::string source;                                                 ///< paper or study
+  std::string source;                                                ///< paper or study
   std::function<std::unique_ptr<CostModel>(const Box& scene)> make;  ///< `scene`: the box of everything that is built
 };
 

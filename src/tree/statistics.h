@@ -9,7 +9,7 @@ namespace boxwood {
 
 /// Costs of the surface area model, in any common unit.
 struct SahConstants {
-  double traversal = 1;  ///< visiting one inner node, whatever its arity
+  double traversal = 1;     ///< visiting one inner node, whatever its arity
   double intersection = 1;  ///< testing one primitive
 };
 
@@ -19,12 +19,13 @@ double sah_cost(const Tree& tree, const SahConstants& constants = {});
 
 struct TreeStatistics {
   std::uint64_t inner_nodes = 0, leaves = 0, references = 0;
-  std::uint32_t max_depth = 0;   ///< edges from the root to the deepest leaf
+  std::uint32_t max_depth = 0;  ///< edges from the root to the deepest leaf
   double mean_leaf_depth = 0;
   std::uint32_t max_arity = 0;
   double mean_arity = 0;
-  std::vector<std::uint64_t> leaf_sizes;  ///< [s] = leaves that hold s references; the last entry counts longer ones too
-  std::vector<std::uint64_t> arities;     ///< [a] = inner nodes with a children; likewise
+  std::vector<std::uint64_t>
+      leaf_sizes;                      ///< [s] = leaves that hold s references; the last entry counts longer ones too
+  std::vector<std::uint64_t> arities;  ///< [a] = inner nodes with a children; likewise
   SahConstants constants;
   double sah_cost = 0;
   /// [d] = area of pairwise intersections of siblings at depth d+1, over the area of their parents; 0 is no overlap.
