@@ -1,0 +1,82 @@
+// The one ray-triangle test of trace/triangle-inl.h, expression by expression, on several triangles or rays at once.
+#if defined(BOXWOOD_LAYOUT_SIMD_TRIANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_TRIANGLES_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_TRIANGLES_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_TRIANGLES_INL_H
+#endif
+
+#include "layout/simd/lanes-inl.h"
+#include "layout/simd/wide_node.h"
+#include "trace/triangle-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+/// The part of a prepared ray that the triangle test reads, in every lane. Axes in the ray's own order: x, y, z stand
+/// for kx, ky, kz, the dominant axis last.
+template <class D>
+struct ShearedRays {
+  hn::Vec<D> origin_x, origin_y, origin_z;
+  hn::Vec<D> shear_x, shear_y, scale_z;
+};
+
+template <class D>
+HWY_INLINE ShearedRays<D> broadcast_sheared(D d, const PreparedRay& ray) {
+  return {hn::Set(d, ray.origin[ray.kx]), hn::Set(d, ray.origin[ray.ky]), hn::Set(d, ray.origin[ray.kz]),
+          hn::Set(d, ray.shear_x),        hn::Set(d, ray.shear_y),        hn::Set(d, ray.scale_z)};
+}
+
+/// One vertex per lane, in the ray's axis order.
+template <class D>
+struct Vertices {
+  hn::Vec<D> x, y, z;
+};
+
+template <class D>
+struct TriangleHits {
+  hn::Mask<D> hit;  // inside the triangle; the range of t is not yet checked
+  hn::Vec<D> t, v, w, determinant;
+};
+
+template <class D, class V>
+HWY_INLINE V difference_of_products(D d, V a, V b, V c, V e) {
+  const V ce = hn::Mul(c, e);
+  return hn::Add(fused_subtract(d, a, b, ce), fused_negative(d, c, e, ce));
+}
+
+/// Relative to the origin, sheared so that the ray runs along z.
+template <class D>
+HWY_INLINE Vertices<D> shear(D d, const Vertices<D>& p, const ShearedRays<D>& ray) {
+  const auto z = hn::Sub(p.z, ray.origin_z);
+  return {fused_negative(d, ray.shear_x, z, hn::Sub(p.x, ray.origin_x)),
+          fused_negative(d, ray.shear_y, z, hn::Sub(p.y, ray.origin_y)), z};
+}
+
+template <class D>
+HWY_INLINE TriangleHits<D> hit_triangles(D d, const Vertices<D> (&triangle)[3], const ShearedRays<D>& ray) {
+  const Vertices<D> a = shear(d, triangle[0], ray), b = shear(d, triangle[1], ray), c = shear(d, triangle[2], ray);
+  const auto u = difference_of_products(d, c.x, b.y, c.y, b.x);
+  const auto v = difference_of_products(d, a.x, c.y, a.y, c.x);
+  const auto w = difference_of_products(d, b.x, a.y, b.y, a.x);
+  const auto zero = hn::Zero(d);
+  const auto least = hn::Min(u, hn::Min(v, w)), most = hn::Max(u, hn::Max(v, w));
+  const auto determinant = hn::Add(hn::Add(u, v), w);
+  const auto inside = hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)),
+                              hn::Ge(hn::Abs(determinant), hn::Set(d, least_determinant)));
+  const auto z = fused(d, u, a.z, fused(d, v, b.z, hn::Mul(w, c.z)));
+  return {inside, hn::Mul(hn::Div(z, determinant), ray.scale_z), v, w, determinant};
+}
+
+/// One vertex of a block's triangles from `begin` on, in the ray's axis order.
+template <class D, int L>
+HWY_INLINE Vertices<D> load_vertices(D d, const LeafBlock<L>& block, int vertex, int begin, int kx, int ky, int kz) {
+  const float(&planes)[3][L] = block.vertices[vertex];
+  return {hn::Load(d, planes[kx] + begin), hn::Load(d, planes[ky] + begin), hn::Load(d, planes[kz] + begin)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif

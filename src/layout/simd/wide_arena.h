@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+
+#include "boxwood/box.h"
+#include "boxwood/scene.h"
+#include "layout/simd/arena.h"
+#include "layout/simd/wide_node.h"
+#include "tree/tree.h"
+
+namespace boxwood {
+
+/// A tree as the kernels see it. The root is always a node, even of an empty tree or of one leaf.
+struct WideView {
+  const std::byte* base = nullptr;
+  WideReference root = wide_nothing;
+  float reach = 0;            ///< largest absolute coordinate of anything in it
+  std::uint32_t stack = 0;    ///< most entries a traversal's stack can hold
+  bool out_of_cache = false;  ///< too large for a core's own caches, so that prefetches pay
+};
+
+/// An encoded tree and its memory.
+struct WideArena {
+  Arena memory;
+  WideView view;
+};
+
+/// Most stack entries the kernels have room for; a deeper tree is not for them.
+inline constexpr std::uint32_t wide_stack_limit = 448;
+
+/// Entries a depth-first traversal of `tree` can have on its stack at once. O(nodes).
+std::uint32_t stack_need(const Tree& tree);
+
+/// Encodes a tree of arity up to N over triangles of `mesh`: subtrees are contiguous, siblings adjacent, small leaves
+/// right behind their siblings. Parallel; O(n); needs 8 bytes per tree node on top of the result.
+template <int N, int L>
+WideArena encode_wide(const Tree& tree, const Mesh& mesh);
+
+}  // namespace boxwood

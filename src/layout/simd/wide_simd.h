@@ -1,0 +1,22 @@
+// Wide hierarchies traced with SIMD instructions: the fast path behind wide(4), wide(8) and wide(16).
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "layout/layout.h"
+#include "layout/trace_options.h"
+#include "recipe/stage.h"
+#include "tree/tree.h"
+
+namespace boxwood {
+
+/// Whether the SIMD kernels can trace this: width 4, 8 or 16, triangles at the leaves, default traversal, no node of
+/// fixed order or more than `width` children, and a tree that is not absurdly deep. O(nodes).
+bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace);
+
+/// Encodes a tree for which simd_wide_supports() holds. Answers are bit-identical to every other layout's.
+/// Counted queries take the boxes of all `width` lanes as tested at each step, full or empty, and all triangles of a
+/// block. Throws UsageError for anything unsupported, Error when memory runs out.
+std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents);
+
+}  // namespace boxwood

@@ -1,0 +1,168 @@
+// The SIMD kernels give the very bits of the scalar triangle test over all triangles, on every instruction set.
+#include "layout/simd/wide_simd.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "boxwood/error.h"
+#include "simd/test_trees.h"
+#include "trace/brute_force.h"
+
+namespace boxwood {
+namespace {
+
+/// Restricts dispatch to one instruction set while it lives.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    update();
+  }
+  ~OnlyTarget() {
+    hwy::SetSupportedTargetsForTest(0);
+    update();
+  }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void update() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
+};
+
+/// What this machine can run of what the kernels are compiled for.
+std::vector<std::int64_t> testable_targets() {
+  std::vector<std::int64_t> out;
+  for (const std::int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
+    if (target == HWY_EMU128 || (hwy::SupportedTargets() & target) != 0) out.push_back(target);
+  }
+  return out;
+}
+
+bool same_bits(const Hit& a, const Hit& b) { return std::memcmp(&a, &b, sizeof(Hit)) == 0; }
+
+/// First ray whose hit differs, or npos.
+std::size_t first_difference(std::span<const Hit> a, std::span<const Hit> b) {
+  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), same_bits);
+  return static_cast<std::size_t>(x - a.begin());
+}
+
+struct Case {
+  const char* scene;
+  std::uint32_t width;
+  std::uint32_t leaf;
+  std::int64_t target;
+};
+
+class SimdWideOf : public testing::TestWithParam<Case> {
+ protected:
+  SimdWideOf() : scene_(test_scene(GetParam().scene)), rays_(test_rays(scene_)) {
+    const Case& c = GetParam();
+    const OnlyTarget only(c.target);
+    Contents contents;
+    contents.mesh = &scene_.meshes.front();
+    layout_ = encode_simd_wide(c.width, test_tree(scene_.meshes.front(), c.width, c.leaf), contents);
+    const BruteForce brute_force(scene_);
+    expected_.resize(rays_.size());
+    brute_force.closest_hits(rays_, expected_);
+  }
+
+  Scene scene_;
+  std::vector<Ray> rays_;
+  std::shared_ptr<const Layout> layout_;
+  std::vector<Hit> expected_;
+};
+
+TEST_P(SimdWideOf, ClosestHits_HaveTheBitsOfBruteForce) {
+  std::vector<Hit> hits(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) hits[i] = layout_->closest_hit(rays_[i]);
+  EXPECT_EQ(first_difference(expected_, hits), rays_.size()) << "single rays";
+  std::ranges::fill(hits, Hit{1, 2, 3, 4, 5});
+  layout_->closest_hits(rays_, hits);
+  EXPECT_EQ(first_difference(expected_, hits), rays_.size()) << "batch";
+  std::vector<RayCounters> counters(rays_.size());
+  layout_->closest_hits_counted(rays_, hits, counters);
+  EXPECT_EQ(first_difference(expected_, hits), rays_.size()) << "counted";
+}
+
+TEST_P(SimdWideOf, AnyHits_AreThoseOfBruteForce) {
+  std::vector<std::uint8_t> expected(rays_.size()), batch(rays_.size(), 7), counted(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) expected[i] = expected_[i].valid() ? 1 : 0;
+  for (std::size_t i = 0; i < rays_.size(); ++i) EXPECT_EQ(layout_->any_hit(rays_[i]), expected[i] != 0) << "ray " << i;
+  layout_->any_hits(rays_, batch);
+  EXPECT_EQ(batch, expected);
+  std::vector<RayCounters> counters(rays_.size());
+  layout_->any_hits_counted(rays_, counted, counters);
+  EXPECT_EQ(counted, expected);
+}
+
+TEST_P(SimdWideOf, BatchOfAnyLength_FillsExactlyItsAnswers) {
+  for (const std::size_t length : {0u, 1u, 7u, 8u, 9u, 63u, 64u, 65u, 127u, 300u}) {
+    const std::span<const Ray> rays(rays_.data(), length);
+    std::vector<Hit> hits(length + 1, Hit{1, 2, 3, 4, 5});
+    layout_->closest_hits(rays, {hits.data(), length});
+    EXPECT_EQ(first_difference({expected_.data(), length}, {hits.data(), length}), length) << length << " rays";
+    EXPECT_EQ(hits[length], (Hit{1, 2, 3, 4, 5}));
+    std::vector<std::uint8_t> blocked(length + 1, 7);
+    layout_->any_hits(rays, {blocked.data(), length});
+    for (std::size_t i = 0; i < length; ++i) EXPECT_EQ(blocked[i], expected_[i].valid() ? 1 : 0);
+    EXPECT_EQ(blocked[length], 7);
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> out;
+  for (const char* scene : test_scene_names) {
+    for (const std::int64_t target : testable_targets()) {
+      for (const std::uint32_t width : {4u, 8u, 16u}) {
+        for (const std::uint32_t leaf : {1u, 4u, 11u}) out.push_back({scene, width, leaf, target});
+      }
+    }
+  }
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SimdWideOf, testing::ValuesIn(cases()), [](const auto& test) {
+  return std::string(test.param.scene) + "_width" + std::to_string(test.param.width) + "_leaf" +
+         std::to_string(test.param.leaf) + "_" + hwy::TargetName(test.param.target);
+});
+
+TEST(SimdWide, CountsOfOneTriangle_AreOneStepOneLeafOneTest) {
+  const Scene scene = test_scene("one_triangle");
+  Contents contents;
+  contents.mesh = &scene.meshes.front();
+  const auto layout = encode_simd_wide(8, test_tree(scene.meshes.front(), 8, 4), contents);
+  const Ray ray{{0.2f, 0.2f, -1}, 0, {0, 0, 1}};
+  Hit hit;
+  RayCounters counters{9, 9, 9, 9, 9};
+  layout->closest_hits_counted({&ray, 1}, {&hit, 1}, {&counters, 1});
+  EXPECT_EQ(counters, (RayCounters{1, 1, 1, 1, 1}));
+  EXPECT_EQ(hit.t, 1);
+}
+
+TEST(SimdWide, UnsupportedTrees_AreRefused) {
+  const Scene scene = test_scene("random");
+  const Mesh& mesh = scene.meshes.front();
+  Contents contents;
+  contents.mesh = &mesh;
+  const Tree tree = test_tree(mesh, 8, 4);
+  EXPECT_TRUE(simd_wide_supports(8, tree, contents, {}));
+  EXPECT_FALSE(simd_wide_supports(4, tree, contents, {})) << "nodes of eight children";
+  EXPECT_FALSE(simd_wide_supports(6, tree, contents, {})) << "no kernel of this width";
+  EXPECT_FALSE(simd_wide_supports(8, tree, contents, {ChildOrder::none, true, TraversalMode::iterative}));
+  EXPECT_FALSE(simd_wide_supports(8, tree, Contents{}, {})) << "not triangles";
+  Tree fixed = tree;
+  fixed.nodes[0].fixed_order = 1;
+  EXPECT_FALSE(simd_wide_supports(8, fixed, contents, {}));
+  EXPECT_THROW(encode_simd_wide(6, tree, contents), UsageError);
+}
+
+}  // namespace
+}  // namespace boxwood
