@@ -39,11 +39,6 @@ ProgressBar::~ProgressBar() {
 bool ProgressBar::report(double fraction, std::string_view what) {
   if (terminal_) {
     const auto time = Clock::now();
-    // Each kind of work is a bar of its own.
-    if (what != what_) {
-      what_ = what;
-      begin_ = time;
-    }
     if (time - last_ >= redraw_interval) {
       last_ = time;
       drawn_ = true;

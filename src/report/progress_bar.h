@@ -9,7 +9,8 @@
 namespace boxwood {
 
 /// Draws "tracing  [=====     ]  52 %  3.1 s left" on one line of standard error while it is a terminal, nothing
-/// otherwise. Asks the work to stop once `stop` is set. The line is wiped when the bar goes.
+/// otherwise. One bar for one piece of work. Asks the work to stop once `stop` is set. The line is wiped when the bar
+/// goes.
 class ProgressBar final : public ProgressSink {
  public:
   explicit ProgressBar(const std::atomic<bool>& stop);
@@ -24,7 +25,6 @@ class ProgressBar final : public ProgressSink {
 
   const std::atomic<bool>& stop_;
   bool terminal_, drawn_ = false;
-  std::string what_;
   Clock::time_point begin_, last_;
 };
 

@@ -1,0 +1,134 @@
+// `boxwood compare`: the main job. Which recipe traces which rays how fast, and at what price.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "boxwood/ray_set.h"
+#include "commands.h"
+#include "comparison_images.h"
+#include "console.h"
+#include "exit_code.h"
+#include "measure/compare.h"
+#include "options/suggest.h"
+#include "recipe/stage.h"
+#include "report/comparison_text.h"
+#include "report/json.h"
+#include "report/progress_bar.h"
+#include "workspace.h"
+
+namespace boxwood::cli {
+namespace {
+
+/// Builders on one layout, then widths, then orders; every peer follows. The first is what the others are held against.
+constexpr std::array default_recipes = {
+    "median > binary",
+    "middle > binary",
+    "equal > binary",
+    "sweep > binary",
+    "binned > binary",
+    "binned > binary > trace(order=axis)",
+    "binned > binary > trace(order=none)",
+    "median(k=4) > wide(4)",
+    "binned > wide(4)",
+    "binned > wide(8)",
+    "sweep > wide(8)",
+};
+
+std::vector<Recipe> recipes_of(const CompareOptions& options) {
+  if (!options.recipes.empty()) return parse_recipes(options.recipes);
+  std::vector<std::string> texts(default_recipes.begin(), default_recipes.end());
+  for (const Stage& stage : stages()) {
+    if (stage.kind == StageKind::peer) texts.push_back(stage.name);
+  }
+  return parse_recipes(texts);
+}
+
+void check_request(const CompareOptions& options) {
+  const bool many = options.scenes.size() > 1;
+  if (many && !options.save_rays.empty()) throw UsageError("--save-rays takes the rays of one scene; name only one");
+  if (many && !options.load_rays.empty()) throw UsageError("--load-rays has the rays of one scene; name only one");
+  if (!options.load_rays.empty() && !options.rays.empty()) {
+    throw UsageError("--load-rays brings its own rays; leave --rays out");
+  }
+  for (const std::string& kind : options.rays) {
+    if (std::ranges::find(ray_kinds(), kind) != ray_kinds().end()) continue;
+    const std::vector<std::string> kinds(ray_kinds().begin(), ray_kinds().end());
+    throw UsageError(fmt::format("--rays knows no kind '{}'; {}", kind, suggest(kind, kinds)));
+  }
+  if (!options.save_rays.empty()) check_can_write(options.save_rays, options.force);
+}
+
+std::vector<RaySet> ray_sets_of(const Scene& scene, const CompareOptions& options) {
+  if (!options.load_rays.empty()) return load_ray_sets(options.load_rays);
+  RaySetSettings settings;
+  settings.camera = find_camera(scene, options.view);
+  settings.width = options.view.width;
+  settings.height = options.view.height;
+  const std::vector<std::string> usual = {"primary", "shadow", "ao", "diffuse"};
+  const Structure structure = build(scene, "default", {.threads = options.common.threads});
+  return run_in_arena(options.common.threads, [&] {
+    return make_ray_sets(scene, structure, settings, options.rays.empty() ? usual : options.rays);
+  });
+}
+
+Comparison compare_scene(const Scene& scene, const std::vector<Recipe>& recipes, const CompareOptions& options) {
+  ProgressBar bar(stop_requested());
+  bar.report(0, "tracing the rays to compare with");
+  const std::vector<RaySet> ray_sets = ray_sets_of(scene, options);
+  if (!options.save_rays.empty()) save_ray_sets(options.save_rays, ray_sets);
+  check_interrupt();
+  CompareSettings settings;
+  settings.repeats = options.repeats;
+  settings.threads = options.common.threads;
+  return compare(scene, recipes, ray_sets, settings, &bar);
+}
+
+std::string images_text(const ComparisonImages& images) {
+  std::string out = fmt::format("Rendering: {}\n", images.rendering);
+  for (const HeatMap& map : images.heat_maps) out += fmt::format("Heat map:  {}  {}\n", map.file, map.recipe);
+  return fmt::format("{}Red: primitive tests per ray, green: inner nodes visited; full brightness is {:.0f} in all.\n",
+                     out, images.scale);
+}
+
+Json images_json(const ComparisonImages& images) {
+  Json maps = Json::array();
+  for (const HeatMap& map : images.heat_maps) maps.push_back({{"recipe", map.recipe}, {"file", map.file}});
+  return {{"rendering", images.rendering},
+          {"heat_maps", std::move(maps)},
+          {"tests_per_ray_at_full_brightness", images.scale}};
+}
+
+/// Text is printed scene by scene, so that a reader need not wait for the last; JSON is returned.
+Json compare_and_show(const std::string& path, const std::vector<Recipe>& recipes, const CompareOptions& options,
+                      bool& agree) {
+  const Scene scene = load_scene(path);
+  const std::vector<std::string> notes = scene_notes(scene);
+  for (const std::string& note : notes) complain(note);
+  if (!options.images.empty()) check_images(options.images, scene, recipes, options.force);
+  const Comparison comparison = compare_scene(scene, recipes, options);
+  agree = agree && comparison.disagreements.empty();
+  Json json = to_json(comparison);
+  if (!options.common.json) print(fmt::format("{}\n", comparison_text(comparison)));
+  if (!options.images.empty()) {
+    const ComparisonImages images = write_images(options.images, scene, recipes, options.view, options.common.threads);
+    json["images"] = images_json(images);
+    if (!options.common.json) print(fmt::format("{}\n", images_text(images)));
+  }
+  return json;
+}
+
+}  // namespace
+
+int run_compare(const CompareOptions& options) {
+  check_request(options);
+  const std::vector<Recipe> recipes = recipes_of(options);
+  bool agree = true;
+  Json scenes = Json::array();
+  for (const std::string& path : options.scenes) scenes.push_back(compare_and_show(path, recipes, options, agree));
+  if (options.common.json) print_json(Json{{"scenes", std::move(scenes)}});
+  if (!options.common.json && !options.save_rays.empty()) print(fmt::format("The rays are in {}\n", options.save_rays));
+  return agree ? exit_done : exit_failed;
+}
+
+}  // namespace boxwood::cli
