@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "layout/simd/wide_kernels.cpp"
 #include <hwy/foreach_target.h>
 
+#include "layout/simd/batch-inl.h"
 #include "layout/simd/single-inl.h"
 
 HWY_BEFORE_NAMESPACE();
