@@ -1,0 +1,141 @@
+// `boxwood bench`: the project's own speed. How fast and in how much memory trees are built, and how fast the presets
+// trace, as ratios to Embree in the same run.
+#include <fmt/format.h>
+
+#include "boxwood/ray_set.h"
+#include "build_bench.h"
+#include "commands.h"
+#include "console.h"
+#include "exit_code.h"
+#include "measure/compare.h"
+#include "recipe/stage.h"
+#include "report/comparison_text.h"
+#include "report/json.h"
+#include "report/number_text.h"
+#include "report/progress_bar.h"
+#include "report/table.h"
+#include "workspace.h"
+
+namespace boxwood::cli {
+namespace {
+
+bool has_embree() {
+  for (const Stage& stage : stages()) {
+    if (stage.name == "embree") return true;
+  }
+  return false;
+}
+
+std::vector<BuildBench> bench_all_builds(const BenchOptions& options, bool peers) {
+  BuildBenchSettings settings;
+  settings.recipes = {"binned > binary", "binned > wide(8)", "sweep > binary",
+                      "median > binary", "middle > binary",  "equal > binary"};
+  settings.peers = peers;
+  settings.repeats = options.quick ? 3 : 7;
+  settings.threads = options.common.threads;
+  std::vector<std::string> scenes = {"generate:terrain(size=708)", "generate:stadium"};
+  if (options.quick) scenes = {"generate:terrain(size=100)"};
+  std::vector<BuildBench> benches;
+  for (const std::string& scene : scenes) {
+    settings.scene = scene;
+    ProgressBar bar(stop_requested());
+    benches.push_back(bench_builds(settings, bar));
+  }
+  if (options.huge) {
+    settings.scene = "generate:terrain(size=3742)";
+    settings.recipes = {"binned > binary"};
+    settings.peers = false;
+    settings.repeats = 1;
+    ProgressBar bar(stop_requested());
+    benches.push_back(bench_builds(settings, bar));
+  }
+  return benches;
+}
+
+/// All presets on usual rays. With a peer, once against each of its better builds.
+std::vector<Comparison> bench_tracing(const BenchOptions& options, bool peers) {
+  std::vector<std::string> references = {presets().front().name};
+  if (peers) references = {"embree(quality=medium)", "embree(quality=high)"};
+  const std::uint32_t side = options.quick ? 64 : 512;
+  std::vector<Comparison> comparisons;
+  for (const char* path : {options.quick ? "generate:terrain(size=100)" : "generate:terrain(size=708)",
+                           options.quick ? "generate:sphereflake" : "generate:stadium"}) {
+    const Scene scene = load_scene(path);
+    const std::vector<std::string> kinds = {"primary", "shadow", "ao", "diffuse"};
+    RaySetSettings view;
+    view.camera = scene.cameras.front();
+    view.width = view.height = side;
+    const std::vector<RaySet> ray_sets = make_ray_sets(scene, build(scene), view, kinds);
+    for (const std::string& reference : references) {
+      std::vector<Recipe> recipes = {Recipe::parse(reference)};
+      for (const Preset& preset : presets()) {
+        if (preset.name != reference) recipes.push_back(Recipe::parse(preset.name));
+      }
+      CompareSettings settings;
+      settings.repeats = options.quick ? 3 : 11;
+      settings.build_repeats = 1;
+      settings.threads = options.common.threads;
+      ProgressBar bar(stop_requested());
+      comparisons.push_back(compare(scene, recipes, ray_sets, settings, &bar));
+    }
+  }
+  return comparisons;
+}
+
+std::string build_text(const BuildBench& bench) {
+  std::vector<Table::Column> columns = {{"build", Align::left}, {"ns/triangle"}, {"peak bytes/triangle"}, {"peak"}};
+  for (const auto& ratio : bench.rows.front().ratios) columns.push_back({fmt::format("× {}", ratio.first)});
+  Table table(columns);
+  for (const BuildRow& row : bench.rows) {
+    std::vector<std::string> cells = {row.recipe, with_interval(row.ns_per_triangle), "–", "–"};
+    if (row.peak) {
+      cells[2] = significant(static_cast<double>(row.peak->added_bytes) / static_cast<double>(bench.triangles));
+      cells[3] = bytes_text(row.peak->total_bytes);
+    }
+    for (const auto& ratio : row.ratios) cells.push_back(with_interval(ratio.second));
+    table.add(std::move(cells));
+  }
+  return fmt::format("Building {}: {}\n\n{}\n", bench.scene, counted(bench.triangles, "triangle"), table.text());
+}
+
+Json build_json(const BuildBench& bench) {
+  Json rows = Json::array();
+  for (const BuildRow& row : bench.rows) {
+    Json ratios = Json::object();
+    for (const auto& ratio : row.ratios) ratios[ratio.first] = to_json(ratio.second);
+    Json entry = {{"recipe", row.recipe}, {"ns_per_triangle", to_json(row.ns_per_triangle)}, {"ratios", ratios}};
+    if (row.peak) {
+      entry["peak_bytes_per_triangle"] =
+          measured_once(static_cast<double>(row.peak->added_bytes) / static_cast<double>(bench.triangles));
+      entry["peak_process_bytes"] = measured_once(static_cast<double>(row.peak->total_bytes));
+    }
+    rows.push_back(std::move(entry));
+  }
+  return {{"name", bench.scene}, {"triangles", bench.triangles}, {"rows", std::move(rows)}};
+}
+
+}  // namespace
+
+int run_bench(const BenchOptions& options) {
+  const bool peers = !options.peer.empty() && has_embree();
+  if (!options.peer.empty() && !peers) {
+    complain("Embree was not found when boxwood was compiled, so there are no ratios to it; install libembree-dev");
+  }
+  const std::vector<BuildBench> builds = bench_all_builds(options, peers);
+  if (!options.common.json) {
+    for (const BuildBench& bench : builds) print(build_text(bench));
+    print("Ratios are speeds over the peer's in the same round: above 1, boxwood is faster.\n\n");
+  }
+  const std::vector<Comparison> tracing = bench_tracing(options, peers);
+  if (!options.common.json) {
+    for (const Comparison& comparison : tracing) print(fmt::format("Tracing {}\n", comparison_text(comparison)));
+    return exit_done;
+  }
+  Json document = {{"peer", peers ? Json(options.peer) : Json()}, {"build", Json::array()}, {"trace", Json::array()}};
+  for (const BuildBench& bench : builds) document["build"].push_back(build_json(bench));
+  for (const Comparison& comparison : tracing) document["trace"].push_back(to_json(comparison));
+  print_json(document);
+  return exit_done;
+}
+
+}  // namespace boxwood::cli

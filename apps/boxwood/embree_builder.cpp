@@ -1,0 +1,89 @@
+#include "embree_builder.h"
+
+#ifdef BOXWOOD_EMBREE
+#include <embree3/rtcore.h>
+
+#include <memory>
+
+#include "measure/clock.h"
+#include "structure/mesh_geometry.h"
+#include "workspace.h"
+
+namespace boxwood::cli {
+namespace {
+
+struct Node {
+  RTCBounds bounds[2];
+  void* children[2];
+};
+struct Leaf {
+  unsigned first, count;
+};
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
+  return rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node));
+}
+void set_children(void* node, void** children, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i) static_cast<Node*>(node)->children[i] = children[i];
+}
+void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i) static_cast<Node*>(node)->bounds[i] = *bounds[i];
+}
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
+  auto* leaf = static_cast<Leaf*>(rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf)));
+  *leaf = {primitives[0].primID, static_cast<unsigned>(count)};
+  return leaf;
+}
+
+std::vector<RTCBuildPrimitive> primitives_of(const Mesh& mesh) {
+  std::vector<RTCBuildPrimitive> out;
+  for (const Reference& reference : MeshGeometry(mesh).references()) {
+    RTCBuildPrimitive primitive = {};
+    primitive.lower_x = reference.lower.x, primitive.lower_y = reference.lower.y;
+    primitive.lower_z = reference.lower.z, primitive.upper_x = reference.upper.x;
+    primitive.upper_y = reference.upper.y, primitive.upper_z = reference.upper.z;
+    primitive.primID = reference.primitive;
+    out.push_back(primitive);
+  }
+  return out;
+}
+
+/// From triangles to a finished tree, like every other contestant.
+double build_once(const Scene& scene, unsigned threads) {
+  const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr), rtcReleaseDevice);
+  const std::unique_ptr<RTCBVHTy, decltype(&rtcReleaseBVH)> tree(rtcNewBVH(device.get()), rtcReleaseBVH);
+  const double begin = now(Clock::wall);
+  std::vector<RTCBuildPrimitive> primitives = primitives_of(scene.meshes.front());
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+  arguments.maxLeafSize = 4;
+  arguments.bvh = tree.get();
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = create_node;
+  arguments.setNodeChildren = set_children;
+  arguments.setNodeBounds = set_bounds;
+  arguments.createLeaf = create_leaf;
+  void* root = run_in_arena(threads, [&] { return rtcBuildBVH(&arguments); });
+  if (!root) throw Error("Embree's rtcBuildBVH failed; leave --peer out");
+  return now(Clock::wall) - begin;
+}
+
+}  // namespace
+
+std::vector<NamedContestant> embree_builders(const Scene& scene, unsigned threads) {
+  return {{"rtcBuildBVH", [&scene, threads] { return build_once(scene, threads); }}};
+}
+
+}  // namespace boxwood::cli
+
+#else
+
+namespace boxwood::cli {
+
+std::vector<NamedContestant> embree_builders(const Scene&, unsigned) { return {}; }
+
+}  // namespace boxwood::cli
+
+#endif

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "boxwood/scene.h"
+#include "measure/interleave.h"
+
+namespace boxwood::cli {
+
+struct NamedContestant {
+  std::string name;
+  Contestant run;
+};
+
+/// Embree's general builder rtcBuildBVH on the scene's first mesh, medium quality, binary nodes: what it offers to
+/// those who bring their own kernels. Nothing when Embree is not compiled in. Refers to the scene.
+std::vector<NamedContestant> embree_builders(const Scene& scene, unsigned threads);
+
+}  // namespace boxwood::cli
