@@ -1,109 +1,187 @@
 #include "build/morton/clustering.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <bit>
 #include <vector>
 
+#include "build/morton/cluster_block.h"
 #include "build/morton/cluster_stack.h"
+#include "math/huge_pages.h"
 
 namespace boxwood {
 namespace {
 
-/// Clusters that a part of the curve hands up to the part around it. More make a better tree for the same work, as long
-/// as twice as many fit in the first-level cache.
-constexpr std::size_t kept = 64;
-/// References that one task joins on its own.
-constexpr std::size_t serial_size = 1 << 13;
-/// Cache misses are started this many references ahead.
-constexpr std::size_t prefetch_distance = 16;
-
 class Clustering {
  public:
   Clustering(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options)
-      : references_(references),
-        order_(order),
-        tree_{RawArray<ClusterTree::Node>(references.size()), RawArray<ClusterTree::Size>(references.size()), {}},
-        stacks_([&] { return ClusterStack(std::max(serial_size, 2 * kept), 2 * kept, options, tree_); }) {}
+      : order_(order),
+        count_(references.size()),
+        joins_(count_),
+        builders_([=, &order] { return BlockBuilder(references, order, options); }),
+        stacks_([=] { return ClusterStack(2 * kept_clusters, 2 * kept_clusters, options); }) {}
 
-  ClusterTree run() {
-    ClusterStack& stack = stacks_.local();
-    const std::vector<Cluster> top = join(0, references_.size());
-    stack.clear();
-    for (const Cluster& cluster : top) stack.push(cluster);
-    stack.reduce(0, 1);
-    tree_.root = stack[0].facts.id;
+  Tree run() {
+    cut(0, count_);
+    unite_small_blocks();
+    blocks_.resize(begins_.size());
+    const std::vector<Cluster> top = join(0, begins_.size());
+    write(top.front());
     return std::move(tree_);
   }
 
  private:
-  /// Where the first differing bit of the codes in [begin, end) changes; the middle when all are the same.
-  std::size_t split(std::size_t begin, std::size_t end) const {
-    const std::uint64_t difference = order_.code(begin) ^ order_.code(end - 1);
-    if (difference == 0) return begin + (end - begin) / 2;
-    const std::uint64_t first_of_right = order_.code(end - 1) >> (std::bit_width(difference) - 1)
-                                                                     << (std::bit_width(difference) - 1);
-    const std::span<const std::uint64_t> keys = std::span<const std::uint64_t>(order_.keys).subspan(begin, end - begin);
-    const auto found = std::lower_bound(keys.begin(), keys.end(), first_of_right << order_.index_bits);
-    return begin + static_cast<std::size_t>(found - keys.begin());
-  }
-
-  void push_references(std::size_t begin, std::size_t end, ClusterStack& stack) const {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i + prefetch_distance < references_.size()) {
-        __builtin_prefetch(&references_[order_.reference(i + prefetch_distance)]);
-      }
-      const Box box = references_[order_.reference(i)].box();
-      const auto place = static_cast<std::uint32_t>(i);
-      stack.push({box, {ClusterId::reference(place), place, {}, half_area(box)}});
-    }
-  }
-
-  /// Leaves at most `kept` clusters for [begin, end) on the stack.
-  void join_serially(std::size_t begin, std::size_t end, ClusterStack& stack) const {
-    const std::size_t bottom = stack.size();
-    if (end - begin <= 2 * kept) {
-      push_references(begin, end, stack);
+  /// Cuts the curve into blocks where its Morton tree would.
+  void cut(std::size_t begin, std::size_t end) {
+    if (end - begin <= BlockBuilder::block_size) {
+      begins_.push_back(begin);
     } else {
-      const std::size_t middle = split(begin, end);
-      join_serially(begin, middle, stack);
-      join_serially(middle, end, stack);
+      const std::size_t middle = order_.split(begin, end);
+      cut(begin, middle);
+      cut(middle, end);
     }
-    stack.reduce(bottom, kept);
   }
 
-  std::vector<Cluster> join(std::size_t begin, std::size_t end) {
-    std::vector<Cluster> left, right;
-    if (end - begin > serial_size) {
-      const std::size_t middle = split(begin, end);
-      tbb::parallel_invoke([&] { left = join(begin, middle); }, [&] { right = join(middle, end); });
+  /// Neighbouring blocks that fit into one become one: references in a block too small to join would stay single.
+  void unite_small_blocks() {
+    std::vector<std::size_t> united{0};
+    for (std::size_t b = 1; b < begins_.size(); ++b) {
+      if (begin_of(b + 1) - united.back() > BlockBuilder::block_size) united.push_back(begins_[b]);
     }
+    begins_ = std::move(united);
+  }
+
+  std::size_t begin_of(std::size_t block) const { return block < begins_.size() ? begins_[block] : count_; }
+
+  /// Joins the blocks [first, last) until few clusters are left; one for all of them.
+  std::vector<Cluster> join(std::size_t first, std::size_t last) {
+    const bool whole = last - first == begins_.size();
+    const std::size_t target = whole ? 1 : kept_clusters;
+    if (last - first == 1) return build_block(first, target);
+    const std::size_t split = order_.split(begin_of(first), begin_of(last));
+    const auto nearest = std::lower_bound(begins_.begin(), begins_.end(), split) - begins_.begin();
+    const std::size_t middle = std::clamp(static_cast<std::size_t>(nearest), first + 1, last - 1);
+    std::vector<Cluster> left, right;
+    tbb::parallel_invoke([&] { left = join(first, middle); }, [&] { right = join(middle, last); });
     // No task is started from here on, so this thread's stack is free.
     ClusterStack& stack = stacks_.local();
     stack.clear();
-    if (end - begin > serial_size) {
-      for (const Cluster& cluster : left) stack.push(cluster);
-      for (const Cluster& cluster : right) stack.push(cluster);
-      stack.reduce(0, kept);
-    } else {
-      join_serially(begin, end, stack);
-    }
-    std::vector<Cluster> joined(stack.size());
-    for (std::size_t i = 0; i < joined.size(); ++i) joined[i] = stack[i];
+    for (const Cluster& cluster : left) stack.push(cluster);
+    for (const Cluster& cluster : right) stack.push(cluster);
+    stack.reduce(0, target, joins_.data());
+    std::vector<Cluster> joined;
+    joined.reserve(stack.size());
+    for (std::size_t i = 0; i < stack.size(); ++i) joined.push_back(stack[i]);
     return joined;
   }
 
-  std::span<const Reference> references_;
+  std::vector<Cluster> build_block(std::size_t block, std::size_t target) {
+    blocks_[block] = builders_.local().build(begin_of(block), begin_of(block + 1), target);
+    std::vector<Cluster> clusters = blocks_[block].roots;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      const auto place = static_cast<std::uint32_t>(begin_of(block) + i);
+      clusters[i].id = ClusterId::given(place);
+      clusters[i].free_slot = place;
+    }
+    return clusters;
+  }
+
+  struct RootPlace {
+    std::size_t block, root;
+  };
+  RootPlace root_place(ClusterId id) const {
+    const auto after = std::upper_bound(begins_.begin(), begins_.end(), id.number());
+    const auto block = static_cast<std::size_t>(after - begins_.begin()) - 1;
+    return {block, id.number() - begins_[block]};
+  }
+
+  /// Appends the primitives of a leaf that is made of roots of blocks. Recursion is no deeper than a leaf has
+  /// references.
+  void collect(ClusterId id, std::vector<std::uint32_t>& references) const {
+    if (id.is_given()) {
+      const auto [b, root] = root_place(id);
+      const Tree::Node& leaf = blocks_[b].nodes[root];
+      const auto first = blocks_[b].references.begin() + leaf.first;
+      references.insert(references.end(), first, first + leaf.count);
+    } else {
+      collect(joins_[id.number()].left, references);
+      collect(joins_[id.number()].right, references);
+    }
+  }
+
+  /// The nodes above the blocks, the leaves that are made of roots of blocks, then block by block.
+  void write(const Cluster& root) {
+    std::vector<Tree::Node> top(1);
+    std::vector<std::uint32_t> loose;
+    struct Subtree {
+      std::size_t node;
+      RootPlace place;
+    };
+    std::vector<Subtree> subtrees;
+    top.front().bounds = root.bounds;
+    SubtreeWriter().write(joins_.data(), root.id, 0, top, [&](Tree::Node& node, ClusterId id) {
+      if (id.is_given()) {
+        const RootPlace place = root_place(id);
+        if (blocks_[place.block].roots[place.root].id.is_inner()) {
+          subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
+          return;
+        }
+      }
+      node.leaf = 1;
+      node.first = static_cast<std::uint32_t>(loose.size());
+      collect(id, loose);
+      node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
+    });
+
+    std::vector<std::size_t> node_places{top.size()}, reference_places{loose.size()};
+    for (const ClusterBlock& block : blocks_) {
+      node_places.push_back(node_places.back() + block.nodes_below_roots());
+      reference_places.push_back(reference_places.back() + block.references.size() - block.loose_references);
+    }
+    tree_.nodes.reserve(node_places.back());
+    tree_.references.reserve(count_);
+    prefer_huge_pages(tree_.nodes.data(), node_places.back() * sizeof(Tree::Node));
+    prefer_huge_pages(tree_.references.data(), count_ * sizeof(std::uint32_t));
+    tree_.nodes.resize(node_places.back());
+    tree_.references.resize(count_);
+    std::copy(top.begin(), top.end(), tree_.nodes.begin());
+    std::copy(loose.begin(), loose.end(), tree_.references.begin());
+    tbb::parallel_for(std::size_t{0}, blocks_.size(),
+                      [&](std::size_t b) { place_block(blocks_[b], node_places[b], reference_places[b]); });
+    for (const Subtree& subtree : subtrees) {
+      tree_.nodes[subtree.node] = blocks_[subtree.place.block].nodes[subtree.place.root];
+    }
+  }
+
+  void place_block(ClusterBlock& block, std::size_t node_place, std::size_t reference_place) {
+    const auto roots = static_cast<std::ptrdiff_t>(block.roots.size());
+    const auto loose = static_cast<std::ptrdiff_t>(block.loose_references);
+    for (Tree::Node& node : block.nodes) {
+      node.first += static_cast<std::uint32_t>(node.is_leaf() ? reference_place - block.loose_references
+                                                              : node_place - block.roots.size());
+    }
+    std::copy(block.nodes.begin() + roots, block.nodes.end(),
+              tree_.nodes.begin() + static_cast<std::ptrdiff_t>(node_place));
+    std::copy(block.references.begin() + loose, block.references.end(),
+              tree_.references.begin() + static_cast<std::ptrdiff_t>(reference_place));
+  }
+
   const MortonOrder& order_;
-  ClusterTree tree_;
+  std::size_t count_;
+  Tree tree_;
+  RawArray<ClusterNode> joins_;  ///< above the blocks; of a block's places only those of its roots are used
+  std::vector<std::size_t> begins_;
+  std::vector<ClusterBlock> blocks_;
+  tbb::enumerable_thread_specific<BlockBuilder> builders_;
   tbb::enumerable_thread_specific<ClusterStack> stacks_;
 };
 
 }  // namespace
 
-ClusterTree cluster(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options) {
+Tree cluster(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options) {
+  if (references.empty()) return {};
   return Clustering(references, order, options).run();
 }
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "math/huge_pages.h"
+
 namespace boxwood {
 namespace {
 
@@ -36,6 +38,15 @@ std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
+std::size_t MortonOrder::split(std::size_t begin, std::size_t end) const {
+  const std::uint64_t difference = code(begin) ^ code(end - 1);
+  if (difference == 0) return begin + (end - begin) / 2;
+  const auto low_bits = static_cast<unsigned>(std::bit_width(difference)) - 1;
+  const std::uint64_t first_of_right = code(end - 1) >> low_bits << low_bits;
+  const std::span<const std::uint64_t> part = std::span<const std::uint64_t>(keys).subspan(begin, end - begin);
+  return begin + static_cast<std::size_t>(std::ranges::lower_bound(part, first_of_right << index_bits) - part.begin());
+}
+
 MortonOrder morton_order(std::span<const Reference> references, unsigned code_bits) {
   const auto index_bits = static_cast<unsigned>(std::bit_width(references.size()));
   const unsigned axis_bits = std::min({code_bits, 63 - index_bits, 60u}) / 3;
@@ -46,6 +57,10 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
   const float scale = size > 0 ? cells / size : 0;
 
   MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits};
+  RawArray<std::uint64_t> scratch(references.size());
+  for (RawArray<std::uint64_t>* array : {&order.keys, &scratch}) {
+    prefer_huge_pages(array->data(), references.size() * sizeof(std::uint64_t));
+  }
   tbb::parallel_for(Range(0, references.size(), grain), [&](const Range& range) {
     const auto cell = [&](float offset) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(offset * scale, cells - 1)));
@@ -56,7 +71,6 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
       order.keys[i] = code << index_bits | i;
     }
   });
-  RawArray<std::uint64_t> scratch(references.size());
   radix_sort(order.keys, scratch, index_bits);
   return order;
 }

@@ -17,6 +17,9 @@ struct MortonOrder {
     return static_cast<std::uint32_t>(keys[i] & ((std::uint64_t{1} << index_bits) - 1));
   }
   std::uint64_t code(std::size_t i) const { return keys[i] >> index_bits; }
+  /// Where the Morton tree splits [begin, end): at the change of the first bit in which the codes differ, or in the
+  /// middle when they are all the same. At least two references. O(log n).
+  std::size_t split(std::size_t begin, std::size_t end) const;
 };
 
 /// Plain interleaved codes (Morton 1966) on a grid of cubes over the boxes' centres, with `code_bits` bits, or as many

@@ -2,7 +2,6 @@
 // Bittner 2018, "Parallel Locally-Ordered Clustering"; Benthin et al. 2024, "H-PLOC".
 #include "boxwood/error.h"
 #include "build/morton/clustering.h"
-#include "build/morton/depth_first.h"
 #include "build/morton/morton_order.h"
 #include "build/morton/stages.h"
 
@@ -10,20 +9,18 @@ namespace boxwood {
 namespace {
 
 struct PlocOptions {
-  std::uint32_t radius = 16;
+  std::uint32_t radius = 8;
   std::uint32_t morton = 30;
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
 };
 
 Tree build_ploc(const PlocOptions& options, BuildInput input) {
-  if (input.references.empty()) return {};
-  if (input.references.size() >= ClusterId::reference_bit / 2) {
-    throw Error("'ploc' takes at most 2^30 primitives; split the scene into instances");
+  if (input.references.size() >= ClusterId::leaf_bit) {
+    throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
-  const ClusterTree clusters = cluster(input.references, order, {options.radius, options.leaf, options.block});
-  return write_depth_first(clusters, input.references, order);
+  return cluster(input.references, order, {options.radius, options.leaf, options.block});
 }
 
 }  // namespace

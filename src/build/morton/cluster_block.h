@@ -1,0 +1,60 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "build/build_input.h"
+#include "build/morton/cluster_stack.h"
+#include "build/morton/morton_order.h"
+#include "build/morton/subtree_writer.h"
+#include "tree/tree.h"
+
+namespace boxwood {
+
+/// Clusters that a part of the curve hands up to the part around it. More make a better tree for the same work, as long
+/// as twice as many fit in the first-level cache.
+inline constexpr std::size_t kept_clusters = 64;
+
+/// A part of the curve, joined as far as it goes and written out while it is still in the cache.
+struct ClusterBlock {
+  std::vector<Cluster> roots;
+  /// First the roots, then what is below them. Inner nodes count places from the block's first node, leaves from its
+  /// first reference.
+  std::vector<Tree::Node> nodes;
+  /// Primitives: first those of roots that are leaves, which may still join into larger leaves, then the others.
+  std::vector<std::uint32_t> references;
+  std::size_t loose_references = 0;  ///< how many belong to roots that are leaves
+
+  std::size_t nodes_below_roots() const { return nodes.size() - roots.size(); }
+};
+
+/// Makes blocks, one after the other. One per thread.
+class BlockBuilder {
+ public:
+  /// References in one block, at most: their joins (128 KiB) and boxes fit in the second-level cache.
+  static constexpr std::size_t block_size = 2048;
+
+  BlockBuilder(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options);
+
+  /// Joins the references at [begin, end) along the curve into at most `target` clusters.
+  ClusterBlock build(std::size_t begin, std::size_t end, std::size_t target);
+
+ private:
+  void push_references(std::size_t begin, std::size_t end);
+  void join(std::size_t begin, std::size_t end, std::size_t target);
+  void write(ClusterBlock& block);
+  void write_root(std::size_t root, ClusterId id);
+  void write_references(ClusterId id);
+
+  std::span<const Reference> references_;
+  const MortonOrder& order_;
+  ClusterStack stack_;
+  std::vector<ClusterNode> joins_;
+  SubtreeWriter writer_;
+  std::vector<Tree::Node> written_nodes_;
+  std::vector<std::uint32_t> written_references_;
+  std::size_t block_begin_ = 0;
+};
+
+}  // namespace boxwood
