@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "temporary_folder.h"
 
 namespace boxwood {
@@ -90,6 +92,13 @@ TEST_F(Obj, NumbersThatAreNotFiniteAreCounted) {
       "v nan 0 0\nv 1 0 0\nv 1 1 0\nv 1e400 0 0\nv 2e12 0 0\nv 1e-400 0 +1\nf 1 2 3\nf 2 3 4\nf 2 3 5\nf 2 3 6\n");
   EXPECT_EQ(scene.notes.non_finite_triangles, 3u);
   EXPECT_EQ(scene.meshes[0].positions.back(), (Vec3{0, 0, 1}));
+}
+
+TEST_F(Obj, NumbersWithoutExponentMayBeOutOfRangeToo) {
+  const std::string zeros(400, '0');
+  const Scene scene = load_text("z.obj", "v 0." + zeros + "1 -0." + zeros + "1 1\nv -1" + zeros + " 0 0\nf 1 1 2\n");
+  EXPECT_EQ(scene.meshes[0].positions[0], (Vec3{0, 0, 1}));
+  EXPECT_EQ(scene.meshes[0].positions[1].x, -std::numeric_limits<float>::infinity());
 }
 
 TEST_F(Obj, BrokenLinesAreNamed) {

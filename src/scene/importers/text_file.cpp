@@ -101,8 +101,10 @@ bool parse_number(std::string_view word, double& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument) return false;
   if (error == std::errc::result_out_of_range) {
-    const bool tiny =
-        word.find("e-") != word.npos || word.find("E-") != word.npos || word.find_first_of("eE") == word.npos;
+    const auto exponent = word.find_first_of("eE");
+    const auto first_digit = word.find_first_not_of('-');
+    const bool tiny = exponent != word.npos ? word.substr(exponent + 1).starts_with('-')
+                                            : word[first_digit] == '0' || word[first_digit] == '.';
     value = tiny ? 0 : std::numeric_limits<double>::infinity() * (word.front() == '-' ? -1 : 1);
   }
   // What a float cannot hold is infinite, as if it had been read as one.
