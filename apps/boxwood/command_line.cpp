@@ -219,10 +219,12 @@ std::string hint(const CLI::App& app, const std::string& wrong) {
 
 [[noreturn]] void explain(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen(app);
-  const std::string where = &command == &app ? "" : command.get_name() + ": ";
-  if (error.get_name() == "ExtrasError") throw UsageError(where + hint(command, app.remaining(true).front()));
+  const std::string where = &command == &app ? "" : fmt::format("{}: ", command.get_name());
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    throw UsageError(fmt::format("{}{}", where, hint(command, app.remaining(true).front())));
+  }
   throw UsageError(fmt::format("{}{}; see 'boxwood {}--help'", where, error.what(),
-                               &command == &app ? "" : command.get_name() + " "));
+                               &command == &app ? "" : fmt::format("{} ", command.get_name())));
 }
 
 std::function<int()> printing(std::string text) {

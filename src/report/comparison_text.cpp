@@ -63,7 +63,7 @@ std::string comparison_text(const Comparison& comparison) {
                      repeats, repeats < 6 ? "their range (fewer than 6 give no 95 % interval)" : "95 % intervals");
   if (has_insignificant_ratio(comparison)) out += "≈: no significant difference (signed-rank test, p ≥ 0.05).\n";
   for (const std::string& disagreement : comparison.disagreements) {
-    out += fmt::format("DISAGREEMENT: {}\n", disagreement);
+    out += fmt::format("Different answers: {}\n", disagreement);
   }
   return out;
 }
