@@ -2,6 +2,7 @@
 #include "layout/embree/embree_scene.h"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -39,9 +40,11 @@ std::vector<std::uint32_t> usable_numbers(const Mesh& mesh) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const Scene& scene, const EmbreeOptions& options) {
-  // The caller's arena says how many threads a build may take.
-  const int threads = std::max(1, tbb::this_task_arena::max_concurrency());
-  device_ = rtcNewDevice(fmt::format("threads={},user_threads=0,set_affinity=0", threads).c_str());
+  // Embree has its own arena, so the caller's limit must be told to it. It then limits the whole process while the
+  // device lives; without a limit it must not be told anything.
+  const int threads = tbb::this_task_arena::max_concurrency();
+  const bool limited = threads < tbb::info::default_concurrency();
+  device_ = rtcNewDevice(limited ? fmt::format("threads={}", threads).c_str() : nullptr);
   if (!device_) throw Error("Embree cannot start on this machine; use one of Boxwood's own layouts");
   try {
     rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
