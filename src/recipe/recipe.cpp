@@ -2,36 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
-
+#include "options/call.h"
 #include "options/suggest.h"
 #include "recipe/stage.h"
 
 namespace boxwood {
 namespace {
-
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-/// Splits at `separator`, but not inside parentheses.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
-    if (text[i] == separator && depth == 0) {
-      parts.push_back(trim(text.substr(begin, i - begin)));
-      begin = i + 1;
-    }
-  }
-  parts.push_back(trim(text.substr(begin)));
-  return parts;
-}
 
 const Stage& find_stage(std::string_view name) {
   for (const Stage& stage : stages()) {
@@ -43,55 +19,16 @@ const Stage& find_stage(std::string_view name) {
   throw UsageError(fmt::format("no recipe stage is called '{}'; {}", name, suggest(name, names)));
 }
 
-const Option& find_option(const Stage& stage, std::string_view name) {
-  std::vector<std::string> names;
-  for (const Option& option : stage.options) {
-    if (option.name == name) return option;
-    names.push_back(option.name);
-  }
-  if (names.empty()) throw UsageError(fmt::format("'{}' takes no options, so not '{}'", stage.name, name));
-  throw UsageError(fmt::format("'{}' has no option '{}'; {}", stage.name, name, suggest(name, names)));
-}
-
-void set_option(StageCall& call, std::string_view argument) {
-  const Stage& stage = *call.stage;
-  const auto equals = argument.find('=');
-  const Option* option = nullptr;
-  if (equals != std::string_view::npos) {
-    option = &find_option(stage, trim(argument.substr(0, equals)));
-    argument = trim(argument.substr(equals + 1));
-  } else {
-    const auto found =
-        std::find_if(stage.options.begin(), stage.options.end(), [](const Option& o) { return o.positional; });
-    if (found == stage.options.end()) {
-      throw UsageError(fmt::format("'{}' needs its options by name, as in {}(name=value), not '{}'", stage.name,
-                                   stage.name, argument));
-    }
-    option = &*found;
-  }
-  try {
-    option->set(call.options, argument);
-  } catch (const UsageError& error) {
-    throw UsageError(fmt::format("option '{}' of '{}' {}", option->name, stage.name, error.what()));
-  }
-}
-
 StageCall parse_call(std::string_view text, std::string_view recipe) {
-  const auto open = text.find('(');
-  const std::string_view name = trim(text.substr(0, open));
-  if (name.empty())
+  const CallText parts = parse_call_text(text);
+  if (parts.name.empty()) {
     throw UsageError(fmt::format("the recipe '{}' has an empty stage; write STAGE > STAGE > …", recipe));
-  StageCall call{&find_stage(name), {}};
-  call.options = call.stage->defaults;
-  if (open == std::string_view::npos) return call;
-  if (text.back() != ')' || std::count(text.begin(), text.end(), '(') != 1 ||
-      std::count(text.begin(), text.end(), ')') != 1) {
-    throw UsageError(
-        fmt::format("'{}' must have its options in one pair of parentheses, as in {}(name=value)", text, name));
   }
-  const std::string_view arguments = trim(text.substr(open + 1, text.size() - open - 2));
-  if (arguments.empty()) return call;
-  for (const std::string_view argument : split(arguments, ',')) set_option(call, argument);
+  StageCall call{&find_stage(parts.name), {}};
+  call.options = call.stage->defaults;
+  for (const std::string_view argument : parts.arguments) {
+    set_option(call.stage->name, call.stage->options, call.options, argument);
+  }
   return call;
 }
 
@@ -190,7 +127,12 @@ Recipe Recipe::parse(std::string_view text) {
     if (text == preset.name) return parse(preset.text);
   }
   std::vector<StageCall> calls;
-  for (const std::string_view part : split(text, '>')) calls.push_back(parse_call(part, text));
+  for (std::string_view rest = text;;) {
+    const auto end = rest.find('>');
+    calls.push_back(parse_call(rest.substr(0, end), text));
+    if (end == std::string_view::npos) break;
+    rest.remove_prefix(end + 1);
+  }
   check_order(calls);
   fit_arity(calls);
   return Recipe(std::move(calls));

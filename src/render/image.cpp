@@ -13,7 +13,7 @@
 #include <string>
 
 #include "boxwood/error.h"
-#include "render/output_file.h"
+#include "files/output_file.h"
 #include "render/png.h"
 
 namespace boxwood {

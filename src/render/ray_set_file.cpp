@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "boxwood/ray_set.h"
-#include "render/output_file.h"
+#include "files/output_file.h"
 
 namespace boxwood {
 namespace {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
+#include "files/output_file.h"
 #include "options/call.h"
 #include "options/suggest.h"
 #include "scene/cameras.h"
 #include "scene/importers/text_file.h"
-#include "scene/replace_file.h"
 
 namespace boxwood {
 namespace {
@@ -108,7 +107,9 @@ void write_cameras(const std::filesystem::path& file, std::span<const Camera> ca
                         print(camera.direction), print(camera.up), camera.fov, i + 1 < cameras.size() ? "," : "");
   }
   text += "]}\n";
-  replace_file(file, [&](std::ostream& out) { out << text; });
+  OutputFile out(file);
+  out.write(text);
+  out.commit();
 }
 
 }  // namespace boxwood

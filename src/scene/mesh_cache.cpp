@@ -10,9 +10,9 @@
 #include <fstream>
 #include <type_traits>
 
+#include "files/output_file.h"
 #include "math/random.h"
 #include "scene/placement.h"
-#include "scene/replace_file.h"
 
 namespace boxwood {
 namespace {
@@ -44,7 +44,7 @@ class Checksum {
 /// Writes values and arrays of plain data.
 class Writer {
  public:
-  explicit Writer(std::ostream& out) : out_(out) {}
+  explicit Writer(OutputFile& out) : out_(out) {}
 
   template <class T>
   void value(const T& v) {
@@ -66,10 +66,10 @@ class Writer {
 
  private:
   void raw(const void* data, std::size_t size) {
-    out_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    out_.write({static_cast<const std::byte*>(data), size});
     checksum_.add(data, size);
   }
-  std::ostream& out_;
+  OutputFile& out_;
   Checksum checksum_;
 };
 
@@ -226,13 +226,13 @@ void write_cached(const Scene& scene, std::span<const fs::path> sources) try {
   std::vector<Source> described;
   for (const fs::path& source : sources) described.push_back(describe(source));
   fs::create_directories(entry.parent_path());
-  replace_file(entry, [&](std::ostream& out) {
-    Writer writer(out);
-    writer.value(magic);
-    writer.list(described, [&](const Source& source) { transfer_source(writer, source); });
-    transfer(writer, scene);
-    writer.finish();
-  });
+  OutputFile out(entry);
+  Writer writer(out);
+  writer.value(magic);
+  writer.list(described, [&](const Source& source) { transfer_source(writer, source); });
+  transfer(writer, scene);
+  writer.finish();
+  out.commit();
 } catch (const fs::filesystem_error&) {
   // No place to write: the scene is imported again next time.
 } catch (const Error&) {

@@ -1,4 +1,4 @@
-#include "render/output_file.h"
+#include "files/output_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,6 +15,8 @@
 
 namespace boxwood {
 namespace {
+
+constexpr std::size_t buffer_size = 1 << 16;
 
 /// Unique among processes and threads; in the same folder, so that renaming stays within one file system.
 std::filesystem::path temporary_name(const std::filesystem::path& file) {
@@ -39,6 +41,18 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
+  if (buffer_.size() + bytes.size() > buffer_size) {
+    write_through(buffer_);
+    buffer_.clear();
+  }
+  if (bytes.size() > buffer_size) {
+    write_through(bytes);
+  } else {
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  }
+}
+
+void OutputFile::write_through(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30));
     if (written < 0 && errno == EINTR) continue;
@@ -48,6 +62,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 }
 
 void OutputFile::commit() {
+  write_through(buffer_);
   // EINVAL: the file system knows no syncing.
   if (fsync(descriptor_) != 0 && errno != EINVAL) fail(errno);
   if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(errno);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
+#include <vector>
 
 namespace boxwood {
 
@@ -16,14 +18,17 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   /// Flushes to the disk and renames; nothing may be written afterwards.
   void commit();
 
  private:
+  void write_through(std::span<const std::byte> bytes);
   [[noreturn]] void fail(int cause) const;
 
   std::filesystem::path file_, temporary_;
   int descriptor_ = -1;
+  std::vector<std::byte> buffer_;  ///< small writes, gathered
 };
 
 }  // namespace boxwood
