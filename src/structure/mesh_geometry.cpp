@@ -28,6 +28,11 @@ Box MeshGeometry::clip(std::uint32_t primitive, const Box& region) const {
   return clip_triangle(mesh_.positions[a], mesh_.positions[b], mesh_.positions[c], region);
 }
 
+bool MeshGeometry::corners(std::uint32_t primitive, Vec3 (&out)[3]) const {
+  for (std::size_t corner = 0; corner < 3; ++corner) out[corner] = mesh_.positions[mesh_.triangles[primitive][corner]];
+  return true;
+}
+
 std::vector<Reference> MeshGeometry::references() const {
   constexpr std::size_t chunk = 1 << 14;
   const std::size_t count = mesh_.triangles.size();

@@ -14,6 +14,7 @@ class MeshGeometry final : public Geometry {
 
   Vec3 centroid(std::uint32_t primitive) const override;
   Box clip(std::uint32_t primitive, const Box& region) const override;
+  bool corners(std::uint32_t primitive, Vec3 (&out)[3]) const override;
   /// One reference per usable triangle, in order. Parallel; O(n).
   std::vector<Reference> references() const;
 

@@ -19,7 +19,10 @@ Reinsertion ReinsertionFinder::find(Edge from) {
     shrunk.grow(tree_.bounds(beside));
     path = tree_.parent(path).up;
     if (path == LinkTree::no_edge) return best;
-    gain += half_area(tree_.bounds(path)) - half_area(shrunk);
+    // Beside an ancestor: the new parent is as large as the ancestor was.
+    const float shrunk_area = half_area(shrunk);
+    if (gain - shrunk_area > best.gain) best = {from, path, gain - shrunk_area};
+    gain += half_area(tree_.bounds(path)) - shrunk_area;
   }
 }
 

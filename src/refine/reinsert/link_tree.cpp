@@ -1,8 +1,7 @@
 #include "refine/reinsert/link_tree.h"
 
-#include <algorithm>
+#include <utility>
 
-#include "boxwood/error.h"
 #include "math/huge_pages.h"
 #include "tree/child_axis.h"
 
@@ -17,39 +16,61 @@ void copy_leaf(const Tree& from, const Tree::Node& leaf, Tree::Node& to, std::ve
   out.insert(out.end(), first, first + leaf.count);
 }
 
+class Linker {
+ public:
+  explicit Linker(const Tree& tree) : tree_(tree), number_(tree.nodes.size()) {}
+
+  LinkTree run() {
+    // Inner nodes are numbered in the order of the array; those that replace wide nodes follow.
+    std::uint32_t leaves = 0;
+    for (std::size_t i = 0; i < number_.size(); ++i) {
+      const bool leaf = tree_.nodes[i].is_leaf();
+      number_[i] = leaf ? 0 : next_inner_++;
+      leaves += leaf ? 1 : 0;
+    }
+    links_.root_bounds = tree_.nodes.front().bounds;
+    links_.inner.reserve(leaves - 1);
+    prefer_huge_pages(links_.inner.data(), (leaves - 1) * sizeof(LinkTree::Inner));
+    links_.inner.resize(leaves - 1);
+    links_.inner.front().up = LinkTree::no_edge;
+    for (std::size_t i = 0; i < number_.size(); ++i) {
+      const Tree::Node& node = tree_.nodes[i];
+      if (!node.is_leaf()) halve(number_[i], node.first, node.first + node.count);
+    }
+    return std::move(links_);
+  }
+
+ private:
+  /// Hangs the nodes [first, last) below `inner`, at least two. Returns their common box. Recursion is logarithmic.
+  Box halve(std::uint32_t inner, std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t middle = first + (last - first + 1) / 2;
+    return unite(hang(inner * 2, first, middle), hang(inner * 2 + 1, middle, last));
+  }
+
+  Box hang(Edge edge, std::uint32_t first, std::uint32_t last) {
+    Child child{number_[first]};
+    Box bounds = tree_.nodes[first].bounds;
+    if (last - first > 1) {
+      child.bits = next_inner_++;
+      bounds = halve(child.bits, first, last);
+    } else if (tree_.nodes[first].is_leaf()) {
+      child.bits = first | Child::leaf_bit;
+    }
+    links_.parent(edge).bounds[edge & 1] = bounds;
+    links_.parent(edge).children[edge & 1] = child;
+    if (!child.is_leaf()) links_.inner[child.number()].up = edge;
+    return bounds;
+  }
+
+  const Tree& tree_;
+  std::vector<std::uint32_t> number_;
+  std::uint32_t next_inner_ = 0;
+  LinkTree links_;
+};
+
 }  // namespace
 
-LinkTree link(const Tree& tree) {
-  LinkTree links;
-  links.root_bounds = tree.nodes.front().bounds;
-  // Inner nodes are numbered in the order of the array, so parents come before children.
-  std::vector<std::uint32_t> number(tree.nodes.size());
-  std::uint32_t inner = 0;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) number[i] = tree.nodes[i].is_leaf() ? 0 : inner++;
-  links.inner.reserve(inner);
-  prefer_huge_pages(links.inner.data(), inner * sizeof(LinkTree::Inner));
-  links.inner.resize(inner);
-  links.inner.front().up = LinkTree::no_edge;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    const Tree::Node& node = tree.nodes[i];
-    if (node.is_leaf()) continue;
-    if (node.count != 2) {
-      throw UsageError("'reinsert' takes binary trees only; put it before stages that make nodes wider");
-    }
-    LinkTree::Inner& to = links.inner[number[i]];
-    for (std::uint32_t side = 0; side < 2; ++side) {
-      const std::uint32_t child = node.first + side;
-      to.bounds[side] = tree.nodes[child].bounds;
-      if (tree.nodes[child].is_leaf()) {
-        to.children[side].bits = child | Child::leaf_bit;
-      } else {
-        to.children[side].bits = number[child];
-        links.inner[number[child]].up = number[i] * 2 + side;
-      }
-    }
-  }
-  return links;
-}
+LinkTree link(const Tree& tree) { return Linker(tree).run(); }
 
 Tree relink(const LinkTree& links, const Tree& tree) {
   Tree out;

@@ -41,7 +41,8 @@ struct LinkTree {
   static Edge sibling(Edge edge) { return edge ^ 1; }
 };
 
-/// Takes a tree of at least two leaves apart. Throws UsageError when a node has more than two children. O(n).
+/// Takes a tree of at least two leaves apart. Of a node with more than two children it makes a small binary tree,
+/// halving them in the order in which they are stored. O(n).
 LinkTree link(const Tree& tree);
 
 /// Puts the leaves of `tree` together again as `links` say: depth first, siblings side by side and in the order of the

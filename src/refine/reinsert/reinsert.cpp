@@ -55,8 +55,9 @@ bool improve(LinkTree& tree, ReinsertionApplier& applier, float batch) {
   return moved;
 }
 
+/// Binary trees never get worse by it; wide nodes are made binary first.
 Tree reinsert(const ReinsertOptions& options, Tree tree) {
-  if (tree.nodes.size() < 5) return tree;  // Fewer than three leaves: there is one tree only.
+  if (tree.nodes.size() < 4) return tree;  // Fewer than three leaves: there is one tree only.
   LinkTree links = link(tree);
   ReinsertionApplier applier(links);
   for (std::uint32_t round = 0; round < options.rounds; ++round) {
@@ -72,7 +73,8 @@ Stage reinsert_stage() {
   options.real("batch", &ReinsertOptions::batch, 0, 1, "part of all nodes tried in a round, the largest first")
       .integer("rounds", &ReinsertOptions::rounds, 1, 64, "rounds, or until nothing moves");
   return refinement_stage<ReinsertOptions>("reinsert", "moves subtrees to where the tree gets cheapest by it",
-                                           "Bittner et al. 2013; Meister and Bittner 2018", options, reinsert, nullptr);
+                                           "Bittner et al. 2013; Meister and Bittner 2018", options, reinsert,
+                                           [](const ReinsertOptions&) { return 2u; });
 }
 
 }  // namespace boxwood

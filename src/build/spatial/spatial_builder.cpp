@@ -1,0 +1,232 @@
+// Top-down building that may divide space instead of references: triangles across the border are cut and referred to
+// from both sides. Stich, Friedrich and Dietrich 2009, "Spatial Splits in Bounding Volume Hierarchies".
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <vector>
+
+#include "boxwood/error.h"
+#include "build/spatial/fragments.h"
+#include "build/spatial/split.h"
+#include "build/spatial/stages.h"
+#include "tree/child_axis.h"
+
+namespace boxwood {
+namespace {
+
+struct SpatialOptions {
+  float alpha = 1e-5f;
+  std::uint32_t bins = 16;
+  float budget = 0.5f;
+  bool unsplit = true;
+  std::uint32_t leaf = 4;
+  std::uint32_t block = 1;
+};
+
+/// References that one task builds over on its own.
+constexpr std::uint32_t serial_size = 1 << 12;
+/// Below this level sets are halved by count, so that no input makes a deep tree.
+constexpr std::uint32_t last_free_level = 64;
+
+/// A part of the tree: divided further, or, in `nodes` (the root first, places counted from it) and `references`,
+/// whole.
+struct Branch {
+  Box bounds;
+  ChildAxis axis;
+  std::unique_ptr<Branch> children[2];
+  std::vector<Tree::Node> nodes;
+  std::vector<std::uint32_t> references;
+};
+
+class SpatialBuilder {
+ public:
+  SpatialBuilder(const SpatialOptions& options, BuildInput input)
+      : options_(options),
+        price_{static_cast<std::uint32_t>(std::bit_width(options.block - 1))},
+        geometry_(input.geometry),
+        array_(std::move(input.references)),
+        dividers_([this] { return FragmentDivider(array_, geometry_, options_.unsplit); }) {}
+
+  Tree run() {
+    Fragments all;
+    all.end = static_cast<std::uint32_t>(array_.size());
+    for (const Reference& reference : array_) {
+      const Box4 box = box4(reference);
+      all.bounds.grow(box);
+      all.centers.grow(box.lower + box.upper);
+    }
+    root_area_ = half_area(all.bounds);
+    const double room = geometry_ ? static_cast<double>(array_.size()) * double{options_.budget} : 0;
+    all.limit = all.end + static_cast<std::uint32_t>(room);
+    array_.resize(all.limit);
+    const std::unique_ptr<Branch> root = grow(all, 0);
+    Tree tree;
+    tree.clipped_leaves = geometry_ != nullptr;
+    tree.nodes.emplace_back();
+    stitch(*root, 0, tree);
+    return tree;
+  }
+
+ private:
+  Split find_split(const Fragments& node, FragmentDivider& divider, bool& spatial) const {
+    const FragmentSet set{divider.references(node), node.bounds, node.centers};
+    const std::uint32_t bins = std::min(options_.bins, 4 + node.size() / 2);
+    Split best = find_object_split(set, bins, price_);
+    spatial = false;
+    if (!geometry_ || node.room() == 0) return best;
+    // Try to divide space where the parts would overlap by something that matters in the whole scene.
+    if (best.found()) {
+      const Box overlap = intersect(best.left.box(), best.right.box());
+      if (overlap.empty() || half_area(overlap) < options_.alpha * root_area_) return best;
+    }
+    const Split space = find_spatial_split(set, *geometry_, bins, price_);
+    const std::uint32_t count = space.left_count + space.right_count;
+    const bool progress = space.left_count < node.size() && space.right_count < node.size();
+    if (space.cost < best.cost && progress && count - node.size() <= node.room()) {
+      spatial = true;
+      return space;
+    }
+    return best;
+  }
+
+  /// False: the node is to be a leaf.
+  bool divide(const Fragments& node, std::uint32_t level, FragmentPair& parts) {
+    const std::uint32_t count = node.size();
+    if (count == 1) return false;
+    FragmentDivider& divider = dividers_.local();
+    bool spatial = false;
+    const Split split = level < last_free_level ? find_split(node, divider, spatial) : Split{};
+    const float area = half_area(node.bounds);
+    if (count <= options_.leaf && area * price_(count) <= area + split.cost) return false;
+    if (!split.found()) {
+      parts = divider.by_count(node);
+    } else if (!spatial) {
+      parts = divider.by_centers(node, split);
+    } else {
+      parts = divider.by_space(node, split);
+      // Nothing was cut after all.
+      if (parts.left.size() == 0) parts = divider.by_count(parts.right);
+      if (parts.right.size() == 0) parts = divider.by_count(parts.left);
+    }
+    return true;
+  }
+
+  /// Builds over many references with a task for each side.
+  std::unique_ptr<Branch> grow(const Fragments& node, std::uint32_t level) {
+    auto branch = std::make_unique<Branch>();
+    branch->bounds = node.bounds.box();
+    FragmentPair parts;
+    if (node.size() <= serial_size) {
+      branch->nodes.emplace_back();
+      write(node, level, 0, *branch);
+    } else if (divide(node, level, parts)) {
+      order(parts, branch->axis);
+      tbb::parallel_invoke([&] { branch->children[0] = grow(parts.left, level + 1); },
+                           [&] { branch->children[1] = grow(parts.right, level + 1); });
+    }
+    return branch;
+  }
+
+  /// Puts the sides in ascending order along the axis that separates them best.
+  static void order(FragmentPair& parts, ChildAxis& axis) {
+    axis = child_axis(parts.left.bounds.box(), parts.right.bounds.box());
+    if (axis.descending) std::swap(parts.left, parts.right);
+  }
+
+  /// Sets nodes[place] of a branch and appends all that is below it, depth first with siblings side by side.
+  void write(const Fragments& node, std::uint32_t level, std::size_t place, Branch& branch) {
+    Tree::Node out;
+    out.bounds = node.bounds.box();
+    FragmentPair parts;
+    if (!divide(node, level, parts)) {
+      out.leaf = 1;
+      out.first = static_cast<std::uint32_t>(branch.references.size());
+      out.count = append_primitives(node, branch.references) & Tree::max_count;
+      branch.nodes[place] = out;
+      return;
+    }
+    ChildAxis axis;
+    order(parts, axis);
+    const std::size_t first = branch.nodes.size();
+    out.first = static_cast<std::uint32_t>(first);
+    out.count = 2;
+    out.axis = axis.axis & 3;
+    branch.nodes[place] = out;
+    branch.nodes.resize(first + 2);
+    write(parts.left, level + 1, first, branch);
+    write(parts.right, level + 1, first + 1, branch);
+  }
+
+  /// Two parts of one primitive in the same leaf are one. Returns how many were appended.
+  std::uint32_t append_primitives(const Fragments& node, std::vector<std::uint32_t>& references) {
+    const auto first = static_cast<std::ptrdiff_t>(references.size());
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      const std::uint32_t primitive = array_[i].primitive;
+      if (std::find(references.begin() + first, references.end(), primitive) == references.end()) {
+        references.push_back(primitive);
+      }
+    }
+    return static_cast<std::uint32_t>(references.size()) - static_cast<std::uint32_t>(first);
+  }
+
+  /// Sets tree.nodes[place] to a branch's root and appends the rest of it.
+  static void stitch(const Branch& branch, std::size_t place, Tree& tree) {
+    const auto first = static_cast<std::uint32_t>(tree.nodes.size());
+    if (!branch.nodes.empty()) {
+      const auto first_reference = static_cast<std::uint32_t>(tree.references.size());
+      tree.references.insert(tree.references.end(), branch.references.begin(), branch.references.end());
+      tree.nodes.insert(tree.nodes.end(), branch.nodes.begin() + 1, branch.nodes.end());
+      tree.nodes[place] = branch.nodes.front();
+      const auto settle = [&](Tree::Node& node) { node.first += node.is_leaf() ? first_reference : first - 1; };
+      settle(tree.nodes[place]);
+      for (std::size_t i = first; i < tree.nodes.size(); ++i) settle(tree.nodes[i]);
+      return;
+    }
+    Tree::Node& node = tree.nodes[place];
+    node.bounds = branch.bounds;
+    node.first = first;
+    node.count = 2;
+    node.axis = branch.axis.axis & 3;
+    tree.nodes.resize(first + 2);
+    stitch(*branch.children[0], first, tree);
+    stitch(*branch.children[1], first + 1, tree);
+  }
+
+  SpatialOptions options_;
+  LeafPrice price_;
+  const Geometry* geometry_;
+  std::vector<Reference> array_;
+  float root_area_ = 0;
+  tbb::enumerable_thread_specific<FragmentDivider> dividers_;
+};
+
+Tree build_spatial(const SpatialOptions& options, BuildInput input) {
+  if (input.references.empty()) return {};
+  const double most = static_cast<double>(input.references.size()) * (1 + double{options.budget});
+  if (most >= 2147483648.0) {
+    throw Error("'spatial' takes at most 2^31 references, cut ones included; lower its budget or split the scene");
+  }
+  return SpatialBuilder(options, std::move(input)).run();
+}
+
+}  // namespace
+
+Stage spatial_stage() {
+  OptionsOf<SpatialOptions> options;
+  options
+      .real("alpha", &SpatialOptions::alpha, 0, 1,
+            "overlap, as a part of the scene's area, from which space is divided")
+      .integer("bins", &SpatialOptions::bins, 2, max_spatial_bins, "bins per axis")
+      .real("budget", &SpatialOptions::budget, 0, 4, "references that cuts may add, as a part of all primitives")
+      .flag("unsplit", &SpatialOptions::unsplit, "leave a primitive whole on one side where that is cheaper")
+      .integer("leaf", &SpatialOptions::leaf, 1, 64, "most references in a leaf")
+      .integer("block", &SpatialOptions::block, 1, 16, "references tested at the price of one; a power of two");
+  return builder_stage<SpatialOptions>("spatial", "splits by surface area cost, of references or of space",
+                                       "Stich et al. 2009 (SBVH)", options, build_spatial,
+                                       [](const SpatialOptions&) { return 2u; });
+}
+
+}  // namespace boxwood

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "build/build_input.h"
+#include "build/float4.h"
+
+namespace boxwood {
+
+inline constexpr std::uint32_t max_spatial_bins = 64;
+
+/// References to be divided, with the boxes around them and around their doubled centres.
+struct FragmentSet {
+  std::span<Reference> references;
+  Box4 bounds, centers;
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(references.size()); }
+};
+
+/// What a leaf of some size costs: references are tested in blocks of a power of two at the price of one.
+struct LeafPrice {
+  std::uint32_t shift = 0;
+  float operator()(std::uint32_t references) const {
+    return static_cast<float>((references + (1u << shift) - 1) >> shift);
+  }
+};
+
+/// Equal bins between the bounds of a box, the same for all references of a node.
+class Slabs {
+ public:
+  Slabs() = default;
+  Slabs(const Box4& box, std::uint32_t count);
+
+  Int4 operator()(Float4 point) const {
+    return __builtin_convertvector(max4(min4((point - origin_) * scale_, last_), Float4{}), Int4);
+  }
+  std::int32_t operator()(float at, int axis) const;
+  /// Border between the bins index - 1 and index.
+  float border(std::int32_t index, int axis) const { return origin_[axis] + width_[axis] * static_cast<float>(index); }
+
+ private:
+  Float4 origin_{}, scale_{}, width_{}, last_{};
+};
+
+/// Where to divide a set: between the bins border - 1 and border of `axis`. No split: `cost` is infinite.
+struct Split {
+  float cost = std::numeric_limits<float>::infinity();  ///< area times price, both sides together
+  int axis = 0;
+  std::int32_t border = 0;
+  Box4 left, right;
+  std::uint32_t left_count = 0, right_count = 0;
+  Slabs slabs;
+
+  bool found() const { return cost < std::numeric_limits<float>::infinity(); }
+};
+
+/// The best division of the references by their centres, over `bins` equal bins on each axis. Wald 2007. O(n).
+Split find_object_split(const FragmentSet& set, std::uint32_t bins, LeafPrice price);
+
+/// The best division of space: references on both sides of the border are cut in two. Stich, Friedrich and Dietrich
+/// 2009, section 3. O(n + clipped bins).
+Split find_spatial_split(const FragmentSet& set, const Geometry& geometry, std::uint32_t bins, LeafPrice price);
+
+}  // namespace boxwood
