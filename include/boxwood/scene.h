@@ -95,9 +95,10 @@ struct Scene {
 bool is_usable(const Mesh& mesh, std::uint32_t triangle);
 
 /// Reads a scene from a file (OBJ, PLY, glTF, GLB, STL, …) or makes one from "generate:NAME(option=value, …)".
-/// Cameras are taken from the sidecar FILE-without-extension.cameras.json when it exists, then from the file, and one
-/// that frames the scene is always appended. Meshes placed once are merged into one mesh in world space; meshes placed
-/// several times stay instances. Throws Error naming the file, the place and the cure; UsageError for a bad generator.
+/// Cameras are taken from the sidecar FILE-without-extension.cameras.json (or FOLDER.cameras.json beside the file's
+/// folder) when it exists, then from the file, and one that frames the scene is always appended. Meshes placed once are
+/// merged into one mesh in world space; meshes placed several times stay instances. Throws Error naming the file, the
+/// place and the cure; UsageError for a bad generator.
 Scene load(std::string_view path_or_generator);
 
 /// The same scene with every instance written out as world-space triangles of one mesh. O(placed triangles).

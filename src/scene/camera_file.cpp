@@ -74,7 +74,13 @@ std::string print(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, 
 
 std::filesystem::path camera_sidecar(const std::filesystem::path& scene_file) {
   std::filesystem::path sidecar = scene_file;
-  return sidecar.replace_extension(".cameras.json");
+  sidecar.replace_extension(".cameras.json");
+  std::error_code ignored;
+  if (std::filesystem::exists(sidecar, ignored)) return sidecar;
+  const std::filesystem::path folder = std::filesystem::absolute(scene_file, ignored).parent_path();
+  std::filesystem::path beside_folder = folder;
+  beside_folder += ".cameras.json";
+  return std::filesystem::exists(beside_folder, ignored) ? beside_folder : sidecar;
 }
 
 std::vector<Camera> read_cameras(const std::filesystem::path& file) {

@@ -24,7 +24,8 @@ std::vector<Camera> orbit_path(const Box& bounds, std::uint32_t frames);
 /// on. Throws UsageError for no key frames or no frames.
 std::vector<Camera> spline_path(std::span<const Camera> key_frames, std::uint32_t frames);
 
-/// Where the cameras of a scene file are kept: its name with .cameras.json in place of its extension.
+/// Where the cameras of a scene file are kept: its name with .cameras.json in place of its extension or, where only
+/// that exists, the name of its folder with .cameras.json, beside the folder.
 std::filesystem::path camera_sidecar(const std::filesystem::path& scene_file);
 /// Reads {"cameras": [{"name", "eye", "direction", "up", "fov"}]}. Throws Error naming the file and the field.
 std::vector<Camera> read_cameras(const std::filesystem::path& file);

@@ -33,6 +33,17 @@ TEST_F(Load, SidecarCamerasComeFirstAndTheFramingOneLast) {
   EXPECT_EQ(scene.cameras[1].name, "auto");
 }
 
+TEST_F(Load, SidecarBesideTheFolderServesWhenThereIsNoneBesideTheFile) {
+  std::filesystem::create_directories(path("hall"));
+  write("hall.cameras.json",
+        R"({"cameras": [{"name": "gate", "eye": [1, 2, 3], "direction": [0, 0, -2], "up": [0, 1, 0], "fov": 50}]})");
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  EXPECT_EQ(load_text("hall/s.obj", mesh).cameras.front().name, "gate");
+  write("hall/s.cameras.json",
+        R"({"cameras": [{"name": "door", "eye": [1, 2, 3], "direction": [0, 0, -2], "up": [0, 1, 0], "fov": 50}]})");
+  EXPECT_EQ(load_text("hall/s.obj", mesh).cameras.front().name, "door");
+}
+
 TEST_F(Load, ABrokenSidecarIsNamed) {
   write("s.cameras.json", "{");
   EXPECT_TRUE(is_one_sentence(refusal("s.obj", "v 0 0 0\n"), path("s.cameras.json")));
