@@ -29,6 +29,7 @@ struct TreeStatistics {
   SahConstants constants;
   double sah_cost = 0;
   /// [d] = area of pairwise intersections of siblings at depth d+1, over the area of their parents; 0 is no overlap.
+  /// Beyond 256 children only those less than 256 places apart are paired.
   std::vector<double> sibling_overlap;
   std::size_t bytes = 0;
 };
