@@ -28,21 +28,22 @@ std::string ratio_text(const RayKindRow& kind, bool first) {
 }
 
 std::string ray_kind_table(const Comparison& comparison, std::size_t index) {
+  const RayKindRow& first = comparison.rows.front().rays[index];
+  if (first.rays == 0) return fmt::format("{}: no rays\n", first.kind);
   Table table({{"recipe", Align::left}, {"Mrays/s"}, {"× first"}, {"node tests/ray"}, {"primitive tests/ray"}});
   for (const RecipeRow& row : comparison.rows) {
     const RayKindRow& kind = row.rays[index];
     table.add({row.recipe, with_interval(kind.mrays_per_s), ratio_text(kind, &row == &comparison.rows.front()),
                tests_per_ray(row, kind.node_tests_per_ray), tests_per_ray(row, kind.primitive_tests_per_ray)});
   }
-  const RayKindRow& first = comparison.rows.front().rays[index];
-  const double share = first.rays == 0 ? 0 : 100 * static_cast<double>(first.hits) / static_cast<double>(first.rays);
+  const double share = 100 * static_cast<double>(first.hits) / static_cast<double>(first.rays);
   return fmt::format("{}: {}, {:.1f} % hit\n\n{}", first.kind, counted(first.rays, "ray"), share, table.text());
 }
 
 bool has_insignificant_ratio(const Comparison& comparison) {
   for (std::size_t i = 1; i < comparison.rows.size(); ++i) {
     for (const RayKindRow& kind : comparison.rows[i].rays) {
-      if (kind.ratio_p_value >= significance_level) return true;
+      if (kind.rays > 0 && kind.ratio_p_value >= significance_level) return true;
     }
   }
   return false;

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace boxwood::testing {
+
+struct Outcome {
+  int exit_code = -1;  ///< negative: died of that signal
+  std::string out, err;
+};
+
+/// Starts the boxwood program in `folder`. `interrupt_after_ms` > 0 sends Ctrl-C then. `out_file` takes standard output
+/// instead of Outcome::out.
+struct RunOptions {
+  std::filesystem::path folder = ".";
+  unsigned interrupt_after_ms = 0;
+  std::string out_file = {};
+};
+Outcome run_boxwood(const std::vector<std::string>& arguments, const RunOptions& options = {});
+
+/// Runs in `folder` with --json; checks that it succeeds, says nothing else, and prints one document.
+nlohmann::json run_for_json(std::vector<std::string> arguments, const std::filesystem::path& folder = ".");
+
+std::string read_file(const std::filesystem::path& file);
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// An empty folder that goes when the test does.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace boxwood::testing
