@@ -30,10 +30,17 @@ std::vector<Ray> successors(const Surfaces& surfaces, std::span<const Ray> rays,
   return out;
 }
 
-/// Where a scene without lights is lit from: a tenth of its diagonal above and behind the camera.
-PointLight default_light(const Camera& camera, const Box& bounds) {
-  const float distance = 0.1f * length(bounds.extent());
-  return {camera.eye + (normalize(camera.up) - normalize(camera.direction)) * distance};
+/// Where a scene without lights is lit from: a tenth of its diagonal above and behind the camera, or, where something
+/// is in the way (a ceiling, a wall), most of the way to it.
+PointLight default_light(const RaySetContext& context) {
+  const Camera& camera = context.settings.camera;
+  const float distance = 0.1f * length(context.bounds.extent());
+  Ray way;
+  way.origin = camera.eye;
+  way.direction = (normalize(camera.up) - normalize(camera.direction)) * distance;
+  way.t_far = 1;
+  const Hit obstacle = context.structure.closest_hit(way);
+  return {camera.eye + way.direction * (obstacle.valid() ? 0.8f * obstacle.t : 1)};
 }
 
 }  // namespace
@@ -60,7 +67,7 @@ std::vector<Ray> primary_rays(const RaySetContext& context) {
 
 std::vector<Ray> shadow_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits) {
   std::vector<PointLight> lights = context.scene.lights;
-  if (lights.empty()) lights.push_back(default_light(context.settings.camera, context.bounds));
+  if (lights.empty()) lights.push_back(default_light(context));
   const auto light_count = static_cast<std::uint32_t>(lights.size());
   return successors(context.surfaces, rays, hits,
                     [&](std::uint32_t number, const SurfacePoint& point, const Vec3& incoming) {

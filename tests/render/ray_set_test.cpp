@@ -125,6 +125,16 @@ TEST(RaySets, ShadowRaysEndJustShortOfALight) {
   EXPECT_EQ(lights_seen.size(), 2u);
 }
 
+TEST(RaySets, ShadowRaysInAClosedRoomWithoutLightsFindTheLightInside) {
+  const Scene scene = box_scene();
+  const Structure structure = build(scene, "median > binary");
+  RaySetSettings settings = small_settings();
+  settings.camera = {"inside", {0.9f, 0.9f, 0.9f}, {-1, -1, -1}, {0, 1, 0}, 60};
+  const std::vector<std::string> kinds = {"shadow"};
+  const std::vector<RaySet> sets = make_ray_sets(scene, structure, settings, kinds);
+  for (const Ray& ray : sets[0].rays) ASSERT_FALSE(structure.any_hit(ray));
+}
+
 TEST(RaySets, AxisRaysFollowOneAxisWithZerosOfBothSigns) {
   int positive_zeros = 0, negative_zeros = 0;
   std::set<std::pair<int, bool>> directions;
