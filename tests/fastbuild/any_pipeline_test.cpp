@@ -13,7 +13,9 @@ TEST_P(TreeOf, TroublingTriangles_IsValid) {
   for (const Triangles& triangles : troubling_triangles()) {
     const Tree tree = build_tree(GetParam(), triangles);
     EXPECT_EQ(validate(tree, triangles.boxes()), "") << triangles.name();
-    if (!tree.clipped_leaves) EXPECT_EQ(tree.references.size(), triangles.size()) << triangles.name();
+    if (!tree.clipped_leaves) {
+      EXPECT_EQ(tree.references.size(), triangles.size()) << triangles.name();
+    }
   }
 }
 
@@ -63,12 +65,14 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fast, TreeOf,
-                         testing::Values("ploc", "ploc(radius=1, leaf=1)",
-                                         "ploc(radius=31, morton=60, leaf=8, block=4)", "ploc(morton=3)",
-                                         "ploc > reinsert", "median > reinsert(batch=1, rounds=2)",
-                                         "median(k=8) > reinsert"),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(
+    Fast, TreeOf,
+    testing::Values("ploc", "ploc(radius=1, leaf=1)", "ploc(radius=31, morton=60, leaf=8, block=4)", "ploc(morton=3)",
+                    "ploc > reinsert", "median > reinsert(batch=1, rounds=2)", "median(k=8) > reinsert", "spatial",
+                    "spatial(alpha=0, budget=2, bins=8, leaf=1)", "spatial(unsplit=off, block=4, leaf=8) > reinsert",
+                    "ploc > optimal-collapse(8)", "spatial > reinsert > optimal-collapse(4, leaf=8)",
+                    "median(k=16) > optimal-collapse(3)"),
+    test_name);
 
 }  // namespace
 }  // namespace boxwood

@@ -4,11 +4,9 @@
 
 namespace boxwood {
 
-void SlabClip::load_corners() {
-  if (known_) return;
-  known_ = true;
+void SlabClip::load_corners(std::uint32_t primitive) {
   Vec3 corners[3];
-  is_triangle_ = geometry_.corners(primitive_, corners);
+  is_triangle_ = geometry_.corners(primitive, corners);
   if (!is_triangle_) return;
   for (std::size_t c = 0; c < 3; ++c) corners_[c] = Float4{corners[c].x, corners[c].y, corners[c].z, 0};
 }

@@ -14,17 +14,13 @@ class SlabClip {
  public:
   SlabClip(const Slabs& slabs, const Geometry& geometry) : slabs_(slabs), geometry_(geometry) {}
 
-  /// The reference that is asked about next: `box` is the part of the primitive that it stands for.
-  void begin(std::uint32_t primitive, const Box4& box) {
-    primitive_ = primitive;
-    box_ = box;
-    known_ = false;
-  }
-
-  /// Calls part(slab, box) for the slabs [first, last] of an axis.
+  /// Calls part(slab, box) for the slabs [first, last] of an axis. `reference` is the box of the part of the primitive
+  /// that is asked about.
   template <class Part>
-  void each_slab(int axis, std::int32_t first, std::int32_t last, Part&& part) {
-    load_corners();
+  void each_slab(std::uint32_t primitive, const Box4& reference, int axis, std::int32_t first, std::int32_t last,
+                 Part&& part) {
+    box_ = reference;
+    load_corners(primitive);
     if (is_triangle_) {
       for (std::int32_t s = first; s <= last; ++s) parts_[static_cast<std::size_t>(s)] = {};
       for (std::size_t c = 0; c < 3; ++c) add_edge(corners_[c], corners_[(c + 1) % 3], axis, first, last);
@@ -44,14 +40,13 @@ class SlabClip {
   }
 
  private:
-  void load_corners();
+  void load_corners(std::uint32_t primitive);
   void add_edge(Float4 from, Float4 to, int axis, std::int32_t first, std::int32_t last);
 
   const Slabs& slabs_;
   const Geometry& geometry_;
-  std::uint32_t primitive_ = 0;
   Box4 box_;
-  bool known_ = false, is_triangle_ = false;
+  bool is_triangle_ = false;
   std::array<Float4, 3> corners_{};
   std::array<Box4, max_spatial_bins> parts_;
 };

@@ -96,28 +96,23 @@ Split find_object_split(const FragmentSet& set, std::uint32_t bins, LeafPrice pr
 Split find_spatial_split(const FragmentSet& set, const Geometry& geometry, std::uint32_t bins, LeafPrice price) {
   Split best;
   best.slabs = Slabs(set.bounds, bins);
-  std::array<AxisBins, 3> axes;
-  for (AxisBins& axis : axes) std::fill_n(axis.begin(), bins, Bin{});
+  const int axis = longest_axis(set.bounds);
+  AxisBins row;
+  std::fill_n(row.begin(), bins, Bin{});
   SlabClip clip(best.slabs, geometry);
   for (const Reference& reference : set.references) {
     const Box4 box = box4(reference);
-    const Int4 first = best.slabs(box.lower), last = best.slabs(box.upper);
-    clip.begin(reference.primitive, box);
-    for (int axis = 0; axis < 3; ++axis) {
-      AxisBins& row = axes[static_cast<std::size_t>(axis)];
-      const std::int32_t enters = first[axis], leaves = last[axis];
-      ++row[static_cast<std::size_t>(enters)].entries;
-      ++row[static_cast<std::size_t>(leaves)].exits;
-      if (enters == leaves) {
-        row[static_cast<std::size_t>(enters)].box.grow(box);
-      } else {
-        clip.each_slab(axis, enters, leaves,
-                       [&](std::int32_t b, const Box4& part) { row[static_cast<std::size_t>(b)].box.grow(part); });
-      }
+    const std::int32_t first = best.slabs(box.lower[axis], axis), last = best.slabs(box.upper[axis], axis);
+    ++row[static_cast<std::size_t>(first)].entries;
+    ++row[static_cast<std::size_t>(last)].exits;
+    if (first == last) {
+      row[static_cast<std::size_t>(first)].box.grow(box);
+    } else {
+      clip.each_slab(reference.primitive, box, axis, first, last,
+                     [&](std::int32_t slab, const Box4& part) { row[static_cast<std::size_t>(slab)].box.grow(part); });
     }
   }
-  for (int axis = 0; axis < 3; ++axis)
-    sweep(axes[static_cast<std::size_t>(axis)], static_cast<std::int32_t>(bins), axis, price, best);
+  sweep(row, static_cast<std::int32_t>(bins), axis, price, best);
   return best;
 }
 

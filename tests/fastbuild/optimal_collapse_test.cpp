@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "fastbuild/trees.h"
+
+namespace boxwood {
+namespace {
+
+struct Limits {
+  std::uint32_t k, leaf, block;
+};
+
+double block_cost(std::uint32_t references, const Limits& limits) {
+  return static_cast<double>((references + limits.block - 1) / limits.block);
+}
+
+/// What the collapse minimises, of a tree as it is.
+double collapse_cost(const Tree& tree, const Limits& limits) {
+  double sum = 0;
+  for (const Tree::Node& node : tree.nodes) {
+    sum += half_area(node.bounds) * (node.is_leaf() ? block_cost(node.count, limits) : 1);
+  }
+  return sum;
+}
+
+std::uint32_t references_below(const Tree& tree, std::uint32_t node) {
+  const Tree::Node& at = tree.nodes[node];
+  if (at.is_leaf()) return at.count;
+  return references_below(tree, at.first) + references_below(tree, at.first + 1);
+}
+
+double least_as_node(const Tree& tree, std::uint32_t node, const Limits& limits);
+
+/// Tries every way to make the children of one wide node: each of `open` stays, or is replaced by its two children.
+double least_as_children(const Tree& tree, std::vector<std::uint32_t> open, std::size_t decided, const Limits& limits) {
+  if (decided == open.size()) {
+    double sum = 0;
+    for (const std::uint32_t node : open) sum += least_as_node(tree, node, limits);
+    return sum;
+  }
+  double least = least_as_children(tree, open, decided + 1, limits);
+  const Tree::Node& at = tree.nodes[open[decided]];
+  if (!at.is_leaf() && open.size() < limits.k) {
+    open[decided] = at.first;
+    open.push_back(at.first + 1);
+    least = std::min(least, least_as_children(tree, open, decided, limits));
+  }
+  return least;
+}
+
+double least_as_node(const Tree& tree, std::uint32_t node, const Limits& limits) {
+  const Tree::Node& at = tree.nodes[node];
+  const std::uint32_t references = references_below(tree, node);
+  double least = std::numeric_limits<double>::infinity();
+  if (at.is_leaf() || references <= limits.leaf) least = half_area(at.bounds) * block_cost(references, limits);
+  if (at.is_leaf()) return least;
+  return std::min(least, half_area(at.bounds) + least_as_children(tree, {at.first, at.first + 1}, 0, limits));
+}
+
+std::string call(const Limits& limits) {
+  return "optimal-collapse(" + std::to_string(limits.k) + ", leaf=" + std::to_string(limits.leaf) +
+         ", block=" + std::to_string(limits.block) + ")";
+}
+
+TEST(OptimalCollapse, SmallTree_CostsWhatTryingEverythingFinds) {
+  for (const Limits& limits : {Limits{2, 1, 1}, Limits{3, 2, 1}, Limits{4, 4, 4}, Limits{8, 2, 2}, Limits{4, 3, 1}}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      const Triangles triangles("few", scattered(1 + seed, 0.4f, seed));
+      const Tree binary = build_tree("median(leaf=1)", triangles);
+      const Tree wide = build_tree("median(leaf=1) > " + call(limits), triangles);
+      EXPECT_EQ(validate(wide, triangles.boxes(), limits.k), "");
+      const double least = least_as_node(binary, 0, limits);
+      EXPECT_NEAR(collapse_cost(wide, limits), least, 1e-5 * least) << call(limits) << ", " << triangles.size();
+    }
+  }
+}
+
+TEST(OptimalCollapse, AnyTree_NoDearerThanGreedyCollapse) {
+  for (const Triangles& triangles : troubling_triangles()) {
+    for (const std::uint32_t k : {2u, 4u, 8u, 16u}) {
+      const Limits limits{k, 4, 4};
+      for (const std::string builder : {"ploc(leaf=1)", "median(leaf=1)"}) {
+        const Tree optimal = build_tree(builder + " > " + call(limits), triangles);
+        EXPECT_EQ(validate(optimal, triangles.boxes(), k), "") << triangles.name();
+        const Tree greedy = build_tree(builder + " > collapse(" + std::to_string(k) + ")", triangles);
+        EXPECT_LE(collapse_cost(optimal, limits), collapse_cost(greedy, limits) * (1 + 1e-5))
+            << triangles.name() << ", k = " << k;
+      }
+    }
+  }
+}
+
+TEST(OptimalCollapse, LeafLimit_HoldsUnlessLeavesWereLarger) {
+  const Triangles triangles("surface", surface(40));
+  const Tree tree = build_tree("ploc(leaf=1) > optimal-collapse(8, leaf=8, block=8)", triangles);
+  std::uint32_t largest = 0;
+  for (const Tree::Node& node : tree.nodes) {
+    if (node.is_leaf()) largest = std::max<std::uint32_t>(largest, node.count);
+  }
+  EXPECT_EQ(largest, 8u);
+}
+
+}  // namespace
+}  // namespace boxwood
