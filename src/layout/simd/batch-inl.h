@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include "layout/simd/compress8-inl.h"
 #include "layout/simd/single-inl.h"
 #include "layout/simd/sort8-inl.h"
 
@@ -21,10 +22,9 @@ namespace HWY_NAMESPACE {
 
 using Floats8 = hn::FixedTag<float, 8>;
 using Ints8 = hn::FixedTag<std::int32_t, 8>;
-using Words8 = hn::FixedTag<std::uint32_t, 8>;
 
 /// Rays in flight of one call, and the memory for their slots: some live on the caller's stack.
-inline constexpr int most_in_flight = 64;
+inline constexpr int most_in_flight = 32;
 inline constexpr std::size_t slot_memory = std::size_t{160} << 10;
 
 /// What a ray in flight needs, by cache line: what node steps read, what leaf steps read. Its stack follows: keys, then
@@ -77,7 +77,7 @@ class Slots {
 /// Offsets of slots. Room for whole vectors behind the end.
 struct SlotList {
   alignas(64) std::uint32_t offsets[most_in_flight + 16];
-  int size = 0;
+  std::uint32_t size = 0;
 
   HWY_INLINE void add(std::uint32_t offset) { offsets[size++] = offset; }
 };
@@ -95,8 +95,8 @@ HWY_INLINE void start(const Slots& slots, Slot& slot, const WideView& view, cons
     slot.far_offset[axis] = ray.far_offset[axis];
     slot.near_row[axis] = static_cast<std::uint32_t>(2 * axis + ray.negative[axis]) * 32;
   }
-  slot.t_near = ray.t_near + 0.0f;  // keys need +0
-  slot.t_limit = ray.t_far;
+  slot.t_near = ray.t_near + 0.0f;  // never -0: keys and limits are compared as integers
+  slot.t_limit = ray.t_far + 0.0f;
   slot.next = view.root;
   slot.top = stack_bottom + 1;
   slot.ray = ray;
@@ -133,30 +133,44 @@ HWY_INLINE void prefetch_next(const WideView& view, WideReference reference) {
   __builtin_prefetch(place + 192);
 }
 
-/// Closest hit: pushes all children met, nearest on top, and takes the top. Nothing when none was met.
-template <bool Prefetch>
-HWY_INLINE WideReference closest_node_step(const Slots& slots, const WideView& view, Slot& slot) {
+// A node step is three short passes over the list instead of a long one: test, order, next. A core looks only some 250
+// instructions ahead, so the shorter the chain of one ray, the more rays overlap.
+
+/// Keys of the children met, in place of the others the least integer; and how many were met.
+struct alignas(32) TestedNode {
+  std::int32_t keys[8];
+};
+
+HWY_INLINE std::uint32_t test_step(const WideView& view, const Slot& slot, TestedNode& tested) {
   const Floats8 d;
   const Ints8 di;
-  const Words8 dw;
-  const std::byte* node = view.base + std::size_t{slot.next} * 16;
-  const NodeHits hits = hit_node(node, slot);
-  const auto lane = hn::Iota(di, 0);
-  const auto key = hn::Or(hn::And(hn::BitCast(di, hits.entry), hn::Set(di, ~7)), lane);
-  // Missed children become the smallest keys: they end behind the others and are never read.
+  const NodeHits hits = hit_node(view.base + std::size_t{slot.next} * 16, slot);
+  const auto key = hn::Or(hn::And(hn::BitCast(di, hits.entry), hn::Set(di, ~7)), hn::Iota(di, 0));
   const auto miss = hn::Set(di, std::numeric_limits<std::int32_t>::min());
-  const auto sorted = sort8_descending(hn::IfThenElse(hn::RebindMask(di, hits.hit), key, miss));
-  const auto children = hn::Load(dw, reinterpret_cast<const std::uint32_t*>(node + 6 * 32));
-  const auto lanes = hn::And(sorted, hn::Set(di, 7));
-  const auto ordered = hn::TableLookupLanes(children, hn::IndicesFromVec(dw, hn::BitCast(dw, lanes)));
+  hn::Store(hn::IfThenElse(hn::RebindMask(di, hits.hit), key, miss), di, tested.keys);
+  return static_cast<std::uint32_t>(std::popcount(bits_of(d, hits.hit)));
+}
+
+/// Pushes all children met, nearest on top; the missed ones land behind and are never read.
+HWY_INLINE void push_step(const Slots& slots, const WideView& view, Slot& slot, const TestedNode& tested,
+                          std::uint32_t count) {
+  const Ints8 di;
+  const Words8 dw;
+  const auto sorted = sort8_descending(hn::Load(di, tested.keys));
+  const auto* children = reinterpret_cast<const std::uint32_t*>(view.base + std::size_t{slot.next} * 16 + 6 * 32);
+  const auto lanes = hn::IndicesFromVec(dw, hn::BitCast(dw, hn::And(sorted, hn::Set(di, 7))));
   const std::uint32_t top = slot.top;
-  WideReference* references = slots.references(slot);
   hn::StoreU(sorted, di, slots.keys(slot) + top);
-  hn::StoreU(ordered, dw, references + top);
-  const std::uint32_t count = static_cast<std::uint32_t>(std::popcount(bits_of(d, hits.hit)));
-  const WideReference nearest = references[top + count - 1];
-  slot.top = count == 0 ? top : top + count - 1;
-  const WideReference next = count == 0 ? wide_nothing : nearest;
+  hn::StoreU(hn::TableLookupLanes(hn::Load(dw, children), lanes), dw, slots.references(slot) + top);
+  slot.top = top + count;
+}
+
+/// Takes the nearest of the `count` children just pushed; nothing when there is none.
+template <bool Prefetch>
+HWY_INLINE WideReference take_step(const Slots& slots, const WideView& view, Slot& slot, std::uint32_t count) {
+  const std::uint32_t some = (count + 15) >> 4;  // 1 when any; arithmetic, lest the compiler make a branch
+  slot.top -= some;
+  const WideReference next = slots.references(slot)[slot.top] & (0u - some);
   slot.next = next;
   if constexpr (Prefetch) prefetch_next(view, next);
   return next;
@@ -185,28 +199,23 @@ HWY_INLINE void closest_leaf_step(const WideView& view, Slot& slot) {
   const LeafBlock<L>* block = blocks_at<L>(view, slot.next);
   bool more = true;
   for (; more; ++block) {
-    if (closest_in_block(*block, slot.ray, slot.t_limit, slot.best)) slot.t_limit = slot.best.t;
+    if (closest_in_block(*block, slot.ray, slot.t_limit, slot.best)) slot.t_limit = slot.best.t + 0.0f;
     more = (block->primitives[0] & more_blocks) != 0;
   }
 }
 
-/// Writes the selected lanes one after another, and unspecified ones behind them; returns how many were selected.
-/// Not Highway's CompressStore, whose masked store is slow on some machines.
-HWY_INLINE int compress_store(hn::Vec<Words8> v, hn::Mask<Words8> selected, std::uint32_t* place) {
-  const Words8 d;
-  hn::StoreU(hn::Compress(v, selected), d, place);
-  return std::popcount(bits_of(d, selected));
-}
-
 /// Sorts what a pass left in `list` into nodes, leaves and the rest by `next`, the references in the same order.
-HWY_INLINE void split(SlotList& list, const std::uint32_t* next, SlotList& nodes, SlotList& leaves, SlotList& rest) {
+/// `list` may be that of `nodes`, emptied: lanes are read before anything is written over them.
+HWY_INLINE void split(const std::uint32_t* list, std::uint32_t length, const std::uint32_t* next, SlotList& nodes,
+                      SlotList& leaves, SlotList& rest) {
   const Words8 d;
-  const int size = list.size;
-  int node_count = nodes.size, leaf_count = leaves.size, rest_count = rest.size;
+  const int size = static_cast<int>(length);
+  std::uint32_t node_count = nodes.size, leaf_count = leaves.size, rest_count = rest.size;
+  const auto lane = hn::Iota(Ints8(), 0);
   for (int i = 0; i < size; i += 8) {
-    const auto offsets = hn::Load(d, list.offsets + i);
+    const auto offsets = hn::Load(d, list + i);
     const auto references = hn::Load(d, next + i);
-    const auto used = hn::Lt(hn::Iota(Ints8(), i), hn::Set(Ints8(), size));
+    const auto used = hn::Lt(lane, hn::Set(Ints8(), size - i));
     const auto in_use = hn::RebindMask(d, used);
     const auto leaf = hn::TestBit(references, hn::Set(d, 1));
     const auto none = hn::Eq(hn::AndNot(hn::Set(d, 1), references), hn::Zero(d));
@@ -257,16 +266,22 @@ class ClosestBatch {
   }
 
   void node_pass() {
-    SlotList list = nodes_;
-    nodes_.size = 0;
-    for (int i = 0; i < list.size; ++i) {
-      next_[i] = closest_node_step<Prefetch>(slots_, view_, slots_.at(list.offsets[i]));
+    const std::uint32_t size = nodes_.size;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      counts_[i] = test_step(view_, slots_.at(nodes_.offsets[i]), tested_[i]);
     }
-    split(list, next_, nodes_, leaves_, pops_);
+    for (std::uint32_t i = 0; i < size; ++i) {
+      push_step(slots_, view_, slots_.at(nodes_.offsets[i]), tested_[i], counts_[i]);
+    }
+    for (std::uint32_t i = 0; i < size; ++i) {
+      next_[i] = take_step<Prefetch>(slots_, view_, slots_.at(nodes_.offsets[i]), counts_[i]);
+    }
+    nodes_.size = 0;
+    split(nodes_.offsets, size, next_, nodes_, leaves_, pops_);
   }
 
   void leaf_pass() {
-    for (int i = 0; i < leaves_.size; ++i) {
+    for (std::uint32_t i = 0; i < leaves_.size; ++i) {
       closest_leaf_step<L>(view_, slots_.at(leaves_.offsets[i]));
       pops_.offsets[pops_.size + i] = leaves_.offsets[i];
     }
@@ -276,14 +291,14 @@ class ClosestBatch {
 
   void pop_pass() {
     finished_.size = 0;
-    for (int i = 0; i < pops_.size; ++i) {
+    for (std::uint32_t i = 0; i < pops_.size; ++i) {
       Slot& slot = slots_.at(pops_.offsets[i]);
       next_[i] = pop_step(slots_, slot);
       if constexpr (Prefetch) prefetch_next(view_, next_[i]);
     }
-    split(pops_, next_, nodes_, leaves_, finished_);
+    split(pops_.offsets, pops_.size, next_, nodes_, leaves_, finished_);
     pops_.size = 0;
-    for (int i = 0; i < finished_.size; ++i) {
+    for (std::uint32_t i = 0; i < finished_.size; ++i) {
       const Slot& slot = slots_.at(finished_.offsets[i]);
       hits_[slot.index] = slot.best;
       load(finished_.offsets[i]);
@@ -296,6 +311,8 @@ class ClosestBatch {
   Slots slots_;
   std::size_t next_ray_ = 0;
   SlotList nodes_, leaves_, pops_, finished_;
+  TestedNode tested_[most_in_flight];
+  std::uint32_t counts_[most_in_flight];
   alignas(64) std::uint32_t next_[most_in_flight + 16];
 };
 
@@ -314,7 +331,7 @@ class AnyBatch {
         node_pass();
       else
         leaf_pass();
-      for (int i = 0; i < finished_.size; ++i) load(finished_.offsets[i]);
+      for (std::uint32_t i = 0; i < finished_.size; ++i) load(finished_.offsets[i]);
       finished_.size = 0;
     }
   }
@@ -332,14 +349,12 @@ class AnyBatch {
   }
 
   HWY_INLINE WideReference node_step(Slot& slot) {
-    const Floats8 d;
     const Words8 dw;
     const std::byte* node = view_.base + std::size_t{slot.next} * 16;
     const NodeHits hits = hit_node(node, slot);
     const auto children = hn::Load(dw, reinterpret_cast<const std::uint32_t*>(node + 6 * 32));
     WideReference* references = slots_.references(slot);
-    const int count = compress_store(children, hn::RebindMask(dw, hits.hit), references + slot.top);
-    slot.top += static_cast<std::uint32_t>(count - 1);
+    slot.top += compress_store(children, hn::RebindMask(dw, hits.hit), references + slot.top) - 1;
     slot.next = references[slot.top];
     if constexpr (Prefetch) prefetch_next(view_, slot.next);
     return slot.next;
@@ -348,8 +363,8 @@ class AnyBatch {
   void node_pass() {
     SlotList list = nodes_;
     nodes_.size = 0;
-    for (int i = 0; i < list.size; ++i) next_[i] = node_step(slots_.at(list.offsets[i]));
-    split(list, next_, nodes_, leaves_, finished_);
+    for (std::uint32_t i = 0; i < list.size; ++i) next_[i] = node_step(slots_.at(list.offsets[i]));
+    split(list.offsets, list.size, next_, nodes_, leaves_, finished_);
   }
 
   HWY_INLINE WideReference leaf_step(Slot& slot) {
@@ -370,8 +385,8 @@ class AnyBatch {
   void leaf_pass() {
     SlotList list = leaves_;
     leaves_.size = 0;
-    for (int i = 0; i < list.size; ++i) next_[i] = leaf_step(slots_.at(list.offsets[i]));
-    split(list, next_, nodes_, leaves_, finished_);
+    for (std::uint32_t i = 0; i < list.size; ++i) next_[i] = leaf_step(slots_.at(list.offsets[i]));
+    split(list.offsets, list.size, next_, nodes_, leaves_, finished_);
   }
 
   const WideView& view_;

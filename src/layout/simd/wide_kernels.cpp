@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "layout/simd/batch-inl.h"
+#include "layout/simd/packet-inl.h"
 #include "layout/simd/single-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,11 +36,75 @@ struct Single {
   }
 };
 
+#if HWY_MAX_BYTES >= 32
+/// Fewer rays than this do not fill the lists of rays in flight.
+inline constexpr std::size_t least_batch = 16;
+
+/// Coherent groups of 64 go as packets, all between them as rays in flight.
+template <int L>
+struct Batch {
+  static void closest(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
+    for_each_run(
+        view, rays,
+        [&](RayGroup& group, std::size_t begin) { closest_hits_of_group<L>(view, group, hits.data() + begin); },
+        [&](std::size_t begin, std::size_t size) {
+          closest_in_flight(view, rays.subspan(begin, size), hits.subspan(begin, size));
+        });
+  }
+  static void any(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+    for_each_run(
+        view, rays,
+        [&](RayGroup& group, std::size_t begin) { any_hits_of_group<L>(view, group, blocked.data() + begin); },
+        [&](std::size_t begin, std::size_t size) {
+          any_in_flight(view, rays.subspan(begin, size), blocked.subspan(begin, size));
+        });
+  }
+
+ private:
+  /// Cuts the batch into coherent groups and the runs between them.
+  template <class OnGroup, class OnRun>
+  static void for_each_run(const WideView& view, std::span<const Ray> rays, OnGroup on_group, OnRun on_run) {
+    std::size_t done = 0, next = 0;
+    RayGroup group;
+    for (; next + group_size <= rays.size(); next += group_size) {
+      if (!prepare_group(rays.subspan(next, group_size), view.reach, group)) continue;
+      if (done != next) on_run(done, next - done);
+      on_group(group, next);
+      done = next + group_size;
+    }
+    if (done != rays.size()) on_run(done, rays.size() - done);
+  }
+  static void closest_in_flight(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
+    if (rays.size() < least_batch) return Single<8, L>::closest_each(view, rays, hits);
+    alignas(64) std::byte memory[slot_memory];
+    if (view.out_of_cache)
+      ClosestBatch<L, true>(view, rays, hits, memory).run();
+    else
+      ClosestBatch<L, false>(view, rays, hits, memory).run();
+  }
+  static void any_in_flight(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+    if (rays.size() < least_batch) return Single<8, L>::any_each(view, rays, blocked);
+    alignas(64) std::byte memory[slot_memory];
+    if (view.out_of_cache)
+      AnyBatch<L, true>(view, rays, blocked, memory).run();
+    else
+      AnyBatch<L, false>(view, rays, blocked, memory).run();
+  }
+};
+#endif
+
 template <int N, int L>
 WideKernels kernels() {
-  using Kernels = Single<N, L>;
-  return {Kernels::closest,         Kernels::any,        Kernels::closest_each, Kernels::any_each,
-          Kernels::closest_counted, Kernels::any_counted};
+  using Each = Single<N, L>;
+  WideKernels out{Each::closest,         Each::any,        Each::closest_each, Each::any_each,
+                  Each::closest_counted, Each::any_counted};
+#if HWY_MAX_BYTES >= 32
+  if constexpr (N == 8) {
+    out.closest_hits = Batch<L>::closest;
+    out.any_hits = Batch<L>::any;
+  }
+#endif
+  return out;
 }
 
 WideKernels kernels_4_4() { return kernels<4, 4>(); }

@@ -1,0 +1,254 @@
+// Coherent rays in groups of 64: inner nodes are tested once for the whole group, by intervals that hold all its rays
+// (after Overbeck, Ramamoorthi, Mark 2008, "Large Ray Packets for Real-time Whitted Ray Tracing"); at a leaf, registers
+// of eight rays are tested against its box, and those that meet it against its triangles.
+#if defined(BOXWOOD_LAYOUT_SIMD_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_PACKET_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_PACKET_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_PACKET_INL_H
+#endif
+
+#include <bit>
+
+#include "layout/simd/ray_group-inl.h"
+#include "layout/simd/triangles-inl.h"
+#include "layout/simd/wide_arena.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_MAX_BYTES >= 32
+
+/// A child of a node, met at `entry` or later by every ray of the group; planes[8 * row] are its box.
+struct PostponedBox {
+  float entry;
+  WideReference child;
+  const float* planes;
+};
+
+/// The intervals of a group in every lane.
+struct GroupSlabs {
+  using V = hn::Vec<hn::FixedTag<float, 8>>;
+  V near_origin[3], far_origin[3], least_inverse[3], largest_inverse[3], slack[3], t_near;
+  int near_row[3];
+
+  explicit GroupSlabs(const RayGroup& group) {
+    const hn::FixedTag<float, 8> d;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool negative = group.negative[axis] != 0;
+      near_origin[axis] = hn::Set(d, negative ? group.least_origin[axis] : group.largest_origin[axis]);
+      far_origin[axis] = hn::Set(d, negative ? group.largest_origin[axis] : group.least_origin[axis]);
+      least_inverse[axis] = hn::Set(d, group.least_inverse[axis]);
+      largest_inverse[axis] = hn::Set(d, group.largest_inverse[axis]);
+      slack[axis] = hn::Set(d, group.slack[axis]);
+      near_row[axis] = 2 * axis + group.negative[axis];
+    }
+    t_near = hn::Set(d, group.least_t_near);
+  }
+};
+
+/// Which children some ray of the group may meet before t_limit, and from where on.
+HWY_INLINE std::uint32_t hit_children(const WideNode<8>& node, const GroupSlabs& slabs, float t_limit, float* entries) {
+  const hn::FixedTag<float, 8> d;
+  auto entry = slabs.t_near;
+  auto exit = hn::Set(d, t_limit);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto near_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis]]), slabs.near_origin[axis]);
+    const auto far_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis] ^ 1]), slabs.far_origin[axis]);
+    const auto from =
+        hn::Min(hn::Mul(near_plane, slabs.least_inverse[axis]), hn::Mul(near_plane, slabs.largest_inverse[axis]));
+    const auto to =
+        hn::Max(hn::Mul(far_plane, slabs.least_inverse[axis]), hn::Mul(far_plane, slabs.largest_inverse[axis]));
+    entry = hn::Max(hn::Sub(from, slabs.slack[axis]), entry);
+    exit = hn::Min(hn::Add(to, slabs.slack[axis]), exit);
+  }
+  hn::Store(entry, d, entries);
+  return bits_of(d, hn::Le(entry, exit));
+}
+
+/// Which registers of eight rays have one that meets the box; bit g for register g.
+HWY_INLINE std::uint32_t registers_in_box(const RayGroup& group, const float* planes) {
+  const hn::FixedTag<float, 8> d;
+  hn::Vec<decltype(d)> near_plane[3], far_plane[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    near_plane[axis] = hn::Set(d, planes[8 * (2 * axis + group.negative[axis])]);
+    far_plane[axis] = hn::Set(d, planes[8 * (2 * axis + 1 - group.negative[axis])]);
+  }
+  std::uint32_t registers = 0;
+  for (int g = 0; g < group_vectors; ++g) {
+    auto entry = hn::Load(d, group.t_near.lanes[g]);
+    auto exit = hn::Load(d, group.t_limit.lanes[g]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto inverse = hn::Load(d, group.inverse[axis].lanes[g]);
+      entry = hn::Max(hn::MulSub(near_plane[axis], inverse, hn::Load(d, group.near_offset[axis].lanes[g])), entry);
+      exit = hn::Min(hn::MulSub(far_plane[axis], inverse, hn::Load(d, group.far_offset[axis].lanes[g])), exit);
+    }
+    registers |= static_cast<std::uint32_t>(bits_of(d, hn::Le(entry, exit)) != 0) << g;
+  }
+  return registers;
+}
+
+/// One triangle against eight rays: hits within the range of t of each.
+template <class D>
+HWY_INLINE TriangleHits<D> hit_by_eight(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, int g) {
+  const auto of = [&](const GroupFloats& values) { return hn::Load(d, values.lanes[g]); };
+  const ShearedRays<D> rays{of(group.origin[group.kx]), of(group.origin[group.ky]), of(group.origin[group.kz]),
+                            of(group.shear_x),          of(group.shear_y),          of(group.scale_z)};
+  TriangleHits<D> hits = hit_triangles(d, triangle, rays);
+  hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, of(group.t_near)), hn::Le(hits.t, of(group.t_limit))));
+  return hits;
+}
+
+/// Calls visit(triangle, primitive) for each triangle of a run of blocks, its vertices in every lane.
+template <int L, class Visit>
+HWY_INLINE void for_each_triangle(const LeafBlock<L>* block, const RayGroup& group, Visit visit) {
+  using D = hn::FixedTag<float, 8>;
+  const D d;
+  bool more = true;
+  for (; more; ++block) {
+    more = (block->primitives[0] & more_blocks) != 0;
+    const std::uint32_t first = block->primitives[0] & ~more_blocks;
+    for (int lane = 0; lane < L; ++lane) {
+      const std::uint32_t primitive = block->primitives[lane] & ~more_blocks;
+      if (lane > 0 && primitive == first) break;  // the rest are points that fill the block
+      const auto vertex = [&](int v) {
+        return Vertices<D>{hn::Set(d, block->vertices[v][group.kx][lane]),
+                           hn::Set(d, block->vertices[v][group.ky][lane]),
+                           hn::Set(d, block->vertices[v][group.kz][lane])};
+      };
+      const Vertices<D> triangle[3] = {vertex(0), vertex(1), vertex(2)};
+      visit(triangle, primitive);
+    }
+  }
+}
+
+/// Closest hits so far. A missing primitive counts as larger than any.
+struct GroupHits {
+  GroupFloats t, v, w, determinant;
+  alignas(64) std::int32_t primitives[group_vectors][8];
+
+  GroupHits() {
+    std::ranges::fill_n(&t.lanes[0][0], group_size, std::numeric_limits<float>::infinity());
+    std::ranges::fill_n(&primitives[0][0], group_size, std::numeric_limits<std::int32_t>::max());
+  }
+};
+
+/// True when a ray's limit came nearer.
+template <int L>
+HWY_INLINE bool closest_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group, GroupHits& best) {
+  const hn::FixedTag<float, 8> d;
+  const hn::FixedTag<std::int32_t, 8> di;
+  bool nearer = false;
+  for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t primitive) HWY_ATTR {
+    const auto number = hn::Set(di, static_cast<std::int32_t>(primitive));
+    for (std::uint32_t left = registers; left != 0; left &= left - 1) {
+      const int g = std::countr_zero(left);
+      const auto hits = hit_by_eight(d, triangle, group, g);
+      if (HWY_LIKELY(hn::AllFalse(d, hits.hit))) continue;
+      const auto best_t = hn::Load(d, best.t.lanes[g]);
+      const auto best_primitive = hn::Load(di, best.primitives[g]);
+      const auto smaller = hn::RebindMask(d, hn::Lt(number, best_primitive));
+      const auto wins = hn::And(hits.hit, hn::Or(hn::Lt(hits.t, best_t), hn::And(hn::Eq(hits.t, best_t), smaller)));
+      const auto keep = [&](GroupFloats& values, auto value) {
+        hn::Store(hn::IfThenElse(wins, value, hn::Load(d, values.lanes[g])), d, values.lanes[g]);
+      };
+      keep(best.t, hits.t);
+      keep(group.t_limit, hits.t);
+      keep(best.v, hits.v);
+      keep(best.w, hits.w);
+      keep(best.determinant, hits.determinant);
+      hn::Store(hn::IfThenElse(hn::RebindMask(di, wins), number, best_primitive), di, best.primitives[g]);
+      nearer = true;
+    }
+  });
+  return nearer;
+}
+
+/// A ray that is blocked gets a limit before its beginning and so meets nothing more. True when one was.
+template <int L>
+HWY_INLINE bool any_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group) {
+  const hn::FixedTag<float, 8> d;
+  bool found = false;
+  for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t) HWY_ATTR {
+    for (std::uint32_t left = registers; left != 0; left &= left - 1) {
+      const int g = std::countr_zero(left);
+      const auto hits = hit_by_eight(d, triangle, group, g);
+      if (HWY_LIKELY(hn::AllFalse(d, hits.hit))) continue;
+      const auto done = hn::Set(d, -std::numeric_limits<float>::infinity());
+      hn::Store(hn::IfThenElse(hits.hit, done, hn::Load(d, group.t_limit.lanes[g])), d, group.t_limit.lanes[g]);
+      found = true;
+    }
+  });
+  return found;
+}
+
+/// Walks the tree for a group, nearest children first; at each leaf that a ray may meet calls
+/// at_leaf(blocks, registers), which returns true when limits changed.
+template <int L, class AtLeaf>
+HWY_INLINE void walk_group(const WideView& view, const RayGroup& group, AtLeaf at_leaf) {
+  const GroupSlabs slabs(group);
+  PostponedBox stack[wide_stack_limit];
+  PostponedBox* top = stack;
+  float t_limit = largest_of(group.t_limit);
+  WideReference current = view.root;
+  alignas(64) float entries[8];
+  while (true) {
+    const WideNode<8>& node = *reinterpret_cast<const WideNode<8>*>(view.base + wide_offset(current));
+    PostponedBox* const bottom = top;
+    for (std::uint32_t bits = hit_children(node, slabs, t_limit, entries); bits != 0; bits &= bits - 1) {
+      const int lane = std::countr_zero(bits);
+      const PostponedBox next{entries[lane], node.children[lane], &node.planes[0][lane]};
+      PostponedBox* place = top++;
+      for (; place != bottom && place[-1].entry < next.entry; --place) *place = place[-1];
+      *place = next;
+    }
+    while (true) {
+      if (top == stack) return;
+      const PostponedBox next = *--top;
+      if (!(next.entry <= t_limit)) continue;
+      current = next.child;
+      if (!is_leaf(current)) break;
+      const std::uint32_t registers = registers_in_box(group, next.planes);
+      if (registers == 0) continue;
+      const auto* blocks = reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(current));
+      if (at_leaf(blocks, registers)) t_limit = largest_of(group.t_limit);
+    }
+  }
+}
+
+template <int L>
+HWY_NOINLINE void closest_hits_of_group(const WideView& view, RayGroup& group, Hit* hits) {
+  const hn::FixedTag<float, 8> d;
+  GroupHits best;
+  walk_group<L>(view, group, [&](const LeafBlock<L>* blocks, std::uint32_t registers) HWY_ATTR {
+    return closest_in_leaf(blocks, registers, group, best);
+  });
+  for (int g = 0; g < group_vectors; ++g) {
+    const auto determinant = hn::Load(d, best.determinant.lanes[g]);
+    alignas(32) float u[8], v[8];
+    hn::Store(hn::Div(hn::Load(d, best.v.lanes[g]), determinant), d, u);
+    hn::Store(hn::Div(hn::Load(d, best.w.lanes[g]), determinant), d, v);
+    for (int lane = 0; lane < 8; ++lane) {
+      const std::int32_t primitive = best.primitives[g][lane];
+      hits[8 * g + lane] = primitive == std::numeric_limits<std::int32_t>::max()
+                               ? Hit{}
+                               : Hit{best.t.lanes[g][lane], u[lane], v[lane], static_cast<std::uint32_t>(primitive), 0};
+    }
+  }
+}
+
+template <int L>
+HWY_NOINLINE void any_hits_of_group(const WideView& view, RayGroup& group, std::uint8_t* blocked) {
+  walk_group<L>(view, group, [&](const LeafBlock<L>* blocks, std::uint32_t registers) HWY_ATTR {
+    return any_in_leaf(blocks, registers, group);
+  });
+  for (std::size_t i = 0; i < group_size; ++i) {
+    blocked[i] = group.t_limit.lanes[i / 8][i % 8] < group.t_near.lanes[i / 8][i % 8] ? 1 : 0;
+  }
+}
+
+#endif  // HWY_MAX_BYTES >= 32
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,169 @@
+// Sixty-four rays side by side, eight to a register, prepared together. Compiled once per instruction set that has
+// eight lanes.
+#if defined(BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H
+#endif
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "layout/simd/lanes-inl.h"
+#include "trace/prepared_ray-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_MAX_BYTES >= 32
+
+inline constexpr int group_vectors = 8;
+inline constexpr std::size_t group_size = 64;
+
+/// One value per ray of a group.
+struct alignas(64) GroupFloats {
+  float lanes[group_vectors][8];
+};
+
+/// The fields of PreparedRay for 64 rays that share the signs of their directions and their dominant axis, and the
+/// intervals that hold them all. The same bits as prepare() where the triangle test reads them.
+struct RayGroup {
+  GroupFloats origin[3], inverse[3], near_offset[3], far_offset[3], t_near, t_limit;
+  GroupFloats shear_x, shear_y, scale_z;
+  int negative[3];
+  int kx, ky, kz;
+
+  float least_origin[3], largest_origin[3];
+  float least_inverse[3], largest_inverse[3];
+  float slack[3];  // error bound of plane distances: more than any ray's own
+  float least_t_near;
+};
+
+/// Rays of a coherent group differ at most this much in the ratios of their direction's components to the dominant one.
+inline constexpr float widest_spread = 0.25f;
+
+HWY_INLINE int dominant_axis(const Vec3& direction) {
+  const float x = std::fabs(direction.x), y = std::fabs(direction.y), z = std::fabs(direction.z);
+  return x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
+}
+
+HWY_INLINE std::uint32_t direction_class(const Ray& ray) {
+  const Vec3& d = ray.direction;
+  return static_cast<std::uint32_t>(dominant_axis(d)) | (std::signbit(d.x) ? 4u : 0) | (std::signbit(d.y) ? 8u : 0) |
+         (std::signbit(d.z) ? 16u : 0);
+}
+
+/// A look at a few rays that rejects nearly every incoherent group.
+HWY_INLINE bool looks_coherent(std::span<const Ray> rays) {
+  const std::uint32_t first = direction_class(rays[0]);
+  bool same = true;
+  for (const std::size_t i : {63, 7, 31, 56, 20, 42, 13}) same &= direction_class(rays[i]) == first;
+  return same;
+}
+
+HWY_INLINE float least_of(const GroupFloats& values) {
+  const hn::FixedTag<float, 8> d;
+  auto least = hn::Load(d, values.lanes[0]);
+  for (int g = 1; g < group_vectors; ++g) least = hn::Min(least, hn::Load(d, values.lanes[g]));
+  return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+HWY_INLINE float largest_of(const GroupFloats& values) {
+  const hn::FixedTag<float, 8> d;
+  auto largest = hn::Load(d, values.lanes[0]);
+  for (int g = 1; g < group_vectors; ++g) largest = hn::Max(largest, hn::Load(d, values.lanes[g]));
+  return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
+/// Eight rays, transposed and prepared. False when one of them is outside the limits of `Ray` or not of the class.
+HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int g, RayGroup& group) {
+  const hn::FixedTag<float, 8> d;
+  using V = hn::Vec<decltype(d)>;
+  // Fields come as origin and direction of a ray in turn: {o0 d0 o1 d1 o2 d2 o3 d3}.
+  V low[4], high[4];
+  const float* values = &rays[0].origin.x;
+  hn::LoadInterleaved4(d, values, low[0], low[1], low[2], low[3]);
+  hn::LoadInterleaved4(d, values + 32, high[0], high[1], high[2], high[3]);
+  V origin[3], direction[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    origin[axis] = hn::ConcatEven(d, high[axis], low[axis]);
+    direction[axis] = hn::ConcatOdd(d, high[axis], low[axis]);
+  }
+  const V t_near = hn::ConcatEven(d, high[3], low[3]), t_far = hn::ConcatOdd(d, high[3], low[3]);
+
+  const V limit = hn::Set(d, largest_coordinate);
+  const V dominant = hn::Abs(direction[group.kz]);
+  auto fit = hn::And(hn::Le(t_near, t_far), hn::Ge(dominant, hn::Set(d, 1 / largest_coordinate)));
+  fit = hn::And(fit, hn::Gt(t_near, hn::Set(d, -std::numeric_limits<float>::infinity())));  // what marks blocked rays
+  V magnitude = hn::Set(d, 0x1p-26f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const V size = hn::Abs(direction[axis]), distance = hn::Abs(origin[axis]);
+    fit = hn::And(fit, hn::And(hn::Le(size, limit), hn::Le(distance, limit)));
+    // Ties between axes go as in dominant_axis().
+    if (axis != group.kz) fit = hn::And(fit, axis < group.kz ? hn::Le(size, dominant) : hn::Lt(size, dominant));
+    const V sign = hn::Set(d, group.negative[axis] != 0 ? -1.0f : 1.0f);
+    fit = hn::And(fit, hn::Eq(hn::CopySignToAbs(hn::Set(d, 1.0f), direction[axis]), sign));
+    magnitude = hn::Max(magnitude, hn::Add(distance, hn::Set(d, reach)));
+  }
+  if (!hn::AllTrue(d, fit)) return false;
+
+  const V bound = hn::Mul(magnitude, hn::Set(d, 0x1p-19f));
+  const V least = hn::Mul(dominant, hn::Set(d, 1e-9f));
+  const V one = hn::Set(d, 1.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const V size = hn::Max(hn::Abs(direction[axis]), least);
+    const V inverse = hn::Div(one, hn::CopySignToAbs(size, direction[axis]));
+    const V center = hn::Mul(origin[axis], inverse);
+    const V slack = hn::Mul(bound, hn::Abs(inverse));
+    hn::Store(origin[axis], d, group.origin[axis].lanes[g]);
+    hn::Store(inverse, d, group.inverse[axis].lanes[g]);
+    hn::Store(hn::Add(center, slack), d, group.near_offset[axis].lanes[g]);
+    hn::Store(hn::Sub(center, slack), d, group.far_offset[axis].lanes[g]);
+  }
+  hn::Store(t_near, d, group.t_near.lanes[g]);
+  hn::Store(t_far, d, group.t_limit.lanes[g]);
+  hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.lanes[g]);
+  hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.lanes[g]);
+  hn::Store(hn::Div(one, direction[group.kz]), d, group.scale_z.lanes[g]);
+  return true;
+}
+
+/// Fills `group` from 64 rays. False when they are not coherent enough to be traced as one.
+HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, RayGroup& group) {
+  if (!looks_coherent(rays)) return false;
+  const Vec3& first = rays[0].direction;
+  group.kz = dominant_axis(first);
+  group.kx = group.kz == 2 ? 0 : group.kz + 1;
+  group.ky = group.kx == 2 ? 0 : group.kx + 1;
+  for (int axis = 0; axis < 3; ++axis)
+    group.negative[axis] = std::signbit(first[static_cast<std::size_t>(axis)]) ? 1 : 0;
+  for (int g = 0; g < group_vectors; ++g) {
+    if (!prepare_eight(rays.data() + g * 8, reach, g, group)) return false;
+  }
+  if (largest_of(group.shear_x) - least_of(group.shear_x) > widest_spread) return false;
+  if (largest_of(group.shear_y) - least_of(group.shear_y) > widest_spread) return false;
+  float magnitude = 0x1p-26f;
+  for (int axis = 0; axis < 3; ++axis) {
+    group.least_origin[axis] = least_of(group.origin[axis]);
+    group.largest_origin[axis] = largest_of(group.origin[axis]);
+    group.least_inverse[axis] = least_of(group.inverse[axis]);
+    group.largest_inverse[axis] = largest_of(group.inverse[axis]);
+    if (!(group.largest_origin[axis] - group.least_origin[axis] <= widest_spread * reach)) return false;
+    magnitude = std::max(
+        {magnitude, std::fabs(group.least_origin[axis]) + reach, std::fabs(group.largest_origin[axis]) + reach});
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inverse = std::max(std::fabs(group.least_inverse[axis]), std::fabs(group.largest_inverse[axis]));
+    group.slack[axis] = magnitude * 0x1p-18f * inverse;
+  }
+  group.least_t_near = least_of(group.t_near);
+  return true;
+}
+
+#endif  // HWY_MAX_BYTES >= 32
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
