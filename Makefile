@@ -3,6 +3,9 @@
 RELEASE := build
 CONFIGURE := cmake -G Ninja -S .
 THREADS := $(shell nproc)
+# Lets ccache recognise the same sources in another folder.
+export CCACHE_BASEDIR := $(CURDIR)
+export CCACHE_NOHASHDIR := 1
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18

@@ -2,8 +2,10 @@
 #include "boxwood/structure.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <vector>
 
@@ -80,6 +82,10 @@ void check_same_length(std::size_t rays, std::size_t answers) {
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options) {
   BuildReport report;
   std::shared_ptr<const Layout> layout;
+  // More threads than the machine has are for tests of determinism; TBB has to be told to allow them.
+  const auto available = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  std::max<std::size_t>(options.threads, available));
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
   arena.execute([&] {
     const StageCall& first = recipe.stages().front();
