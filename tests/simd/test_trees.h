@@ -111,6 +111,12 @@ inline std::vector<Ray> test_rays(const Scene& scene) {
     const Vec3 target{random.between(-0.3f, 0.3f), random.between(-0.3f, 0.3f), random.between(-0.1f, 0.1f)};
     rays.push_back({center + Vec3{-3, -4, -5}, 0, Vec3{3, 4, 5} + target});
   }
+  // Groups whose dominant axis is a tie.
+  for (int i = 0; i < 192; ++i) {
+    const float other = random.between(0.5f, 0.55f);
+    const Vec3 direction = i < 64 ? Vec3{1, other, 1} : i < 128 ? Vec3{1, -1, other} : Vec3{other, -1, -1};
+    rays.push_back({center - direction * 3 + random.point(-0.1f, 0.1f), 0, direction, 100});
+  }
   const float nan = std::numeric_limits<float>::quiet_NaN();
   rays.push_back({center, 0, {0, 0, 0}});
   rays.push_back({center, 0, {nan, 0, 1}});
