@@ -70,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values("ploc", "ploc(radius=1, leaf=1)", "ploc(radius=31, morton=60, leaf=8, block=4)", "ploc(morton=3)",
                     "ploc > reinsert", "median > reinsert(batch=1, rounds=2)", "median(k=8) > reinsert", "spatial",
                     "spatial(alpha=0, budget=2, bins=8, leaf=1)", "spatial(unsplit=off, block=4, leaf=8) > reinsert",
-                    "ploc > optimal-collapse(8)", "spatial > reinsert > optimal-collapse(4, leaf=8)",
-                    "median(k=16) > optimal-collapse(3)"),
+                    "ploc > optimal-collapse(8)", "ploc(presplit=0.5)", "ploc(presplit=2, leaf=1) > reinsert",
+                    "spatial > reinsert > optimal-collapse(4, leaf=8)", "median(k=16) > optimal-collapse(3)"),
     test_name);
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <numeric>
+
+#include "build/spatial/presplit.h"
 #include "fastbuild/trees.h"
 
 namespace boxwood {
@@ -28,7 +31,7 @@ TEST(Spatial, CutNeedles_StayWhollyCovered) {
   // Points on the triangles: each must lie in a leaf that refers to its triangle.
   const Triangles triangles("needles", needles(300));
   for (const std::string pipeline : {"spatial(alpha=0, budget=2)", "spatial(alpha=0, budget=2, unsplit=off) > reinsert",
-                                     "spatial(alpha=0, budget=2) > optimal-collapse(8)"}) {
+                                     "spatial(alpha=0, budget=2) > optimal-collapse(8)", "ploc(presplit=2)"}) {
     const Tree tree = build_tree(pipeline, triangles);
     Random random(7);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -55,6 +58,27 @@ TEST(Spatial, CutNeedles_StayWhollyCovered) {
       }
     }
   }
+}
+
+TEST(Presplit, AnyBudget_IsKeptAndPiecesLieInTheirTriangle) {
+  for (const Triangles& triangles : troubling_triangles()) {
+    const std::vector<Box> boxes = triangles.boxes();
+    for (const float budget : {0.0f, 0.2f, 3.0f}) {
+      const std::vector<Reference> pieces = presplit(triangles.input().references, triangles, budget);
+      EXPECT_LE(static_cast<double>(pieces.size()), static_cast<double>(triangles.size()) * (1 + double{budget}));
+      for (const Reference& piece : pieces) EXPECT_TRUE(boxes[piece.primitive].contains(piece.box()));
+    }
+  }
+}
+
+TEST(Presplit, LongTrianglesAmongSmall_OnlyTheyAreCut) {
+  std::vector<Corners> all = scattered(1000, 0.02f);
+  for (const Corners& needle : needles(20)) all.push_back(needle);
+  const Triangles triangles("mixed", all);
+  std::vector<int> pieces(all.size());
+  for (const Reference& piece : presplit(triangles.input().references, triangles, 0.3f)) ++pieces[piece.primitive];
+  for (std::size_t i = 0; i < 1000; ++i) EXPECT_EQ(pieces[i], 1);
+  EXPECT_GT(std::accumulate(pieces.begin() + 1000, pieces.end(), 0), 40);
 }
 
 TEST(Spatial, BoxesOnly_SplitsReferencesOnly) {

@@ -4,6 +4,7 @@
 #include "build/morton/clustering.h"
 #include "build/morton/morton_order.h"
 #include "build/morton/stages.h"
+#include "build/spatial/presplit.h"
 
 namespace boxwood {
 namespace {
@@ -13,14 +14,20 @@ struct PlocOptions {
   std::uint32_t morton = 30;
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
+  float presplit = 0;
 };
 
 Tree build_ploc(const PlocOptions& options, BuildInput input) {
+  // Boxes alone, of instances, cannot be cut.
+  const bool cut = options.presplit > 0 && input.geometry;
+  if (cut) input.references = presplit(std::move(input.references), *input.geometry, options.presplit);
   if (input.references.size() >= ClusterId::leaf_bit) {
     throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
-  return cluster(input.references, order, {options.radius, options.leaf, options.block});
+  Tree tree = cluster(input.references, order, {options.radius, options.leaf, options.block});
+  tree.clipped_leaves = cut;
+  return tree;
 }
 
 }  // namespace
@@ -31,7 +38,9 @@ Stage ploc_stage() {
       .integer("radius", &PlocOptions::radius, 1, 31, "places along the curve in which a cluster looks for its partner")
       .integer("morton", &PlocOptions::morton, 3, 60, "bits of a Morton code, at most; fewer when a scene is large")
       .integer("leaf", &PlocOptions::leaf, 1, 64, "most references in a leaf, where that is cheaper")
-      .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one");
+      .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
+      .real("presplit", &PlocOptions::presplit, 0, 4,
+            "references that cutting long triangles may add, as a part of all");
   return builder_stage<PlocOptions>("ploc", "joins neighbours along the Morton curve, bottom-up",
                                     "Meister and Bittner 2018; Benthin et al. 2024", options, build_ploc,
                                     [](const PlocOptions&) { return 2u; });
