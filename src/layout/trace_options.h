@@ -11,6 +11,7 @@ struct TraceOptions {
   ChildOrder order = ChildOrder::near;  ///< as stored, by the ray's sign on the split axis, or by distance
   bool cull = true;                     ///< skip what lies behind the closest hit so far or outside t_near…t_far
   TraversalMode mode = TraversalMode::iterative;
+  bool simd = true;  ///< use a SIMD kernel where the layout has one for this walk; the answers are the same
   friend bool operator==(const TraceOptions&, const TraceOptions&) = default;
 };
 

@@ -10,7 +10,9 @@ Stage trace_stage() {
           .choice("order", &TraceOptions::order, {"none", "axis", "near"},
                   "which child first: as stored, by the ray's sign on the split axis, by distance")
           .flag("cull", &TraceOptions::cull, "skip what lies behind the closest hit so far, or outside t_near…t_far")
-          .choice("mode", &TraceOptions::mode, {"iterative", "recursive"}, "own stack, or the program's"),
+          .choice("mode", &TraceOptions::mode, {"iterative", "recursive"}, "own stack, or the program's")
+          .flag("simd", &TraceOptions::simd,
+                "several boxes and triangles per instruction, where the layout has such a kernel"),
       static_cast<std::uint32_t (*)(const TraceOptions&)>(nullptr));
 }
 

@@ -132,7 +132,7 @@ TEST(Counters, OrderAndCullingSaveWork) {
 }
 
 TEST(Counters, OfOneTriangleAreOneOfEach) {
-  const auto layout = test::encode_scene(test::coincident(1), test::LayoutCall(wide_stage()), {});
+  const auto layout = test::encode_scene(test::coincident(1), test::LayoutCall(wide_stage()), {.simd = false});
   const std::vector<Ray> rays = {{{0.3f, 0.4f, -2}, 0, {0, 0, 1}}, {{9, 9, 9}, 0, {0, 0, 1}}};
   const Walks counted = count(*layout, rays);
   EXPECT_EQ(counted[0], (RayCounters{.steps = 0, .leaves = 1, .node_tests = 1, .node_hits = 1, .primitive_tests = 1}));

@@ -95,7 +95,7 @@ TEST_P(EveryBuilder, GivesThemHoweverTheTreeIsWalked) {
       continue;
     }
     for (const char* trace : {"order=none", "order=axis", "order=near", "order=none, cull=off, mode=recursive",
-                              "order=axis, mode=recursive", "cull=off"}) {
+                              "order=axis, mode=recursive", "cull=off", "simd=off"}) {
       expect_brute_force(recipe + " > trace(" + trace + ")");
     }
   }

@@ -1,5 +1,6 @@
 // Nodes of any width with their children's boxes side by side, after Ernst, Greiner 2008, "Multi Bounding Volume
-// Hierarchies", and spec 000. Scalar kernels: width without wider arithmetic.
+// Hierarchies", and spec 000. Any width, any walk, instances too. Widths 4, 8 and 16 under the default walk have SIMD
+// kernels of their own (../simd); what is here is scalar: width without wider arithmetic.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -7,6 +8,7 @@
 #include "boxwood/error.h"
 #include "layout/encode.h"
 #include "layout/encode_level.h"
+#include "layout/simd/wide_simd.h"
 #include "layout/stages.h"
 #include "layout/wide/wide_nodes.h"
 
@@ -69,6 +71,7 @@ struct Choose {
 
 std::shared_ptr<const Layout> encode(const WideOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
+  if (simd_wide_supports(options.k, tree, contents, trace)) return encode_simd_wide(options.k, tree, contents);
   const auto nodes_of = [&](const Tree& t) { return encode_nodes(t, options.k); };
   return encode_level(std::move(tree), contents, trace, nodes_of, Choose{});
 }
