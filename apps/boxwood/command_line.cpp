@@ -135,7 +135,7 @@ void describe_compare(CLI::App& app, Request& request) {
   command.add_option("--rays", options.rays, "Comma-separated ray kinds: " + names_of(ray_kinds()))
       ->type_name("KINDS")
       ->delimiter(',')
-      ->expected(1)
+      ->allow_extra_args(false)
       ->default_str("primary,shadow,ao,diffuse");
   command.add_option("--repeat", options.repeats, "Timed passes over each ray set")
       ->type_name("N")
