@@ -101,6 +101,10 @@ RTCScene EmbreeScene::commit_mesh(const Mesh& mesh, const EmbreeOptions& options
     void* indices =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), usable.size());
     check();
+    // Copies of the caller's mesh; the structure is what comes on top.
+    bytes_ -= static_cast<std::ptrdiff_t>(mesh.positions.size() * sizeof(Vec3) + usable.size() * sizeof(Triangle));
+    // In a scene of low quality each mesh is built as its own quality says, which is medium unless told.
+    rtcSetGeometryBuildQuality(geometry, quality_of(options.quality));
     std::ranges::copy(mesh.positions, static_cast<Vec3*>(vertices));
     std::ranges::transform(usable, static_cast<Triangle*>(indices), [&](std::uint32_t i) { return mesh.triangles[i]; });
     rtcCommitGeometry(geometry);
