@@ -1,6 +1,9 @@
 #pragma once
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,9 +34,12 @@ void check_can_write_image(const std::filesystem::path& file, bool force);
 /// What was wrong with the scene, one sentence each, ready to print; empty when nothing was.
 std::vector<std::string> scene_notes(const Scene& scene);
 
-/// Runs `work` on `threads` threads, 0 for all.
+/// Runs `work` on `threads` threads, 0 for all; on more than the machine has when asked for.
 template <class Work>
 auto run_in_arena(unsigned threads, const Work& work) {
+  const auto available = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  std::max<std::size_t>(threads, available));
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
   return arena.execute(work);
 }

@@ -1,4 +1,5 @@
 // What the commands do when all is well.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -70,6 +71,13 @@ TEST(Compare, WithoutRecipes_ComparesEightOrMore) {
   std::set<std::string> recipes;
   for (const json& row : document["scenes"][0]["rows"]) recipes.insert(row["recipe"]);
   EXPECT_GE(recipes.size(), 8u);
+}
+
+TEST(Compare, RayKinds_AreACommaSeparatedList) {
+  const json document = run_for_json(with(small_comparison, {"--rays", "ao,primary", "--camera", "auto"}));
+  const json& rays = document["scenes"][0]["rows"][0]["rays"];
+  EXPECT_EQ(rays.size(), 2u);
+  EXPECT_TRUE(rays.contains("ao") && rays.contains("primary")) << rays;
 }
 
 TEST(Compare, SavedRays_ReplayToTheSameHits) {
@@ -208,9 +216,9 @@ TEST(Recipes, Markdown_NamesEveryStageAndOption) {
   EXPECT_GE(document.at("stages").size(), 8u);
   EXPECT_GE(document.at("presets").size(), 3u);
   for (const json& stage : document["stages"]) {
-    EXPECT_NE(markdown.out.find("### `" + stage.at("name").get<std::string>() + "`"), std::string::npos);
+    EXPECT_NE(markdown.out.find(fmt::format("### `{}`", stage.at("name").get<std::string>())), std::string::npos);
     for (const json& option : stage.at("options")) {
-      EXPECT_NE(markdown.out.find("`" + option.at("name").get<std::string>() + "`"), std::string::npos);
+      EXPECT_NE(markdown.out.find(fmt::format("`{}`", option.at("name").get<std::string>())), std::string::npos);
       EXPECT_FALSE(option.at("values").get<std::string>().empty());
     }
   }
@@ -218,7 +226,7 @@ TEST(Recipes, Markdown_NamesEveryStageAndOption) {
 
 TEST(Scenes, EveryGenerator_CanBeInspected) {
   for (const json& generator : run_for_json({"scenes"}).at("generators")) {
-    const std::string scene = "generate:" + generator.at("name").get<std::string>();
+    const std::string scene = fmt::format("generate:{}", generator.at("name").get<std::string>());
     const Outcome outcome = run_boxwood({"inspect", scene, "-a", "fast"});
     EXPECT_EQ(outcome.exit_code, 0) << scene << ": " << outcome.err;
   }

@@ -108,7 +108,7 @@ TEST(StandardOutput, Full_IsAnError) {
 
 TEST(Interrupt, StopsCleanlyAndLeavesNothing) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_boxwood({"render", "generate:knot", "--spp", "1000000", "--integrator", "ao"},
+  const Outcome outcome = run_boxwood({"render", "generate:knot", "--size", "2048x2048", "--spp", "256"},
                                       {.folder = folder.path(), .interrupt_after_ms = 1000});
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
