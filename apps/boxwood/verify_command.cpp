@@ -20,7 +20,7 @@
 namespace boxwood::cli {
 namespace {
 
-constexpr double most_triangle_tests = 3e9;  // by brute force; some ten seconds on two cores
+constexpr double most_triangle_tests = 1.5e9;  // by brute force; some ten seconds on two cores
 constexpr std::uint64_t seed = 1;
 
 /// Rays of one kind and their true hits.

@@ -43,7 +43,10 @@ std::string grouped(std::uint64_t value) {
   return with_commas(digits, digits.size());
 }
 
-std::string significant(double value, int digits) { return fixed(value, decimals_for(value, digits)); }
+std::string significant(double value, int digits) {
+  if (value != 0 && std::fabs(value) < 1e-6) return fmt::format("{:.{}e}", value, digits - 1);
+  return fixed(value, decimals_for(value, digits));
+}
 
 std::string with_interval(const Estimate& estimate, int digits) {
   const int decimals = decimals_for(estimate.median, digits);

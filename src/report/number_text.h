@@ -10,7 +10,7 @@ namespace boxwood {
 std::string grouped(std::uint64_t value);
 
 /// At least `digits` significant digits in plain notation, never fewer than the whole part has: "12.3", "1,234",
-/// "0.00123". A dash for NaN and infinities.
+/// "0.00123"; below a millionth "1.23e-07". A dash for NaN and infinities.
 std::string significant(double value, int digits = 3);
 
 /// "12.3 (11.9–12.8)": the median and its interval, all to the decimals that the median needs.

@@ -4,9 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-
-#include "report/number_text.h"
 
 namespace boxwood {
 namespace {
@@ -25,7 +24,7 @@ std::string progress_line(double fraction, std::string_view what, double elapsed
   const std::string bar = std::string(full, '=') + std::string(bar_width - full, ' ');
   std::string text = fmt::format("{}  [{}]  {:3.0f} %", what, bar, done * 100);
   // Too little done says nothing about the rest.
-  if (done > 0.01 && done < 1) text += fmt::format("  {} left", duration_text(elapsed * (1 - done) / done));
+  if (done > 0.01 && done < 1) text += fmt::format("  {:.0f} s left", std::ceil(elapsed * (1 - done) / done));
   return text;
 }
 

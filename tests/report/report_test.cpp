@@ -25,6 +25,7 @@ TEST(NumberText, Significant_KeepsTheDigitsThatCount) {
   EXPECT_EQ(significant(9.996), "10.0");
   EXPECT_EQ(significant(-1234567), "-1,234,567");
   EXPECT_EQ(significant(0), "0");
+  EXPECT_EQ(significant(1.234e-7), "1.23e-07");
   EXPECT_EQ(significant(std::nan("")), "–");
 }
 
@@ -62,7 +63,7 @@ TEST(Table, Markdown_EscapesBars) {
 }
 
 TEST(ProgressLine, TellsShareAndTimeLeft) {
-  EXPECT_EQ(progress_line(0.5, "tracing", 3), "tracing  [===============               ]   50 %  3.00 s left");
+  EXPECT_EQ(progress_line(0.5, "tracing", 3), "tracing  [===============               ]   50 %  3 s left");
   EXPECT_EQ(progress_line(0, "building", 3), "building  [                              ]    0 %");
   EXPECT_EQ(progress_line(1, "building", 3), "building  [==============================]  100 %");
 }
