@@ -39,7 +39,7 @@ struct Cluster {
   /// one's free slot and keep the right one's: no counter is shared, and slots follow the curve.
   std::uint32_t free_slot = 0;
   std::uint32_t leaf_references = 1;  ///< of a leaf; 0 for an inner node
-  float cost = 0;  ///< surface area cost of the subtree, times area
+  float cost = 0;                     ///< surface area cost of the subtree, times area
 };
 
 }  // namespace boxwood
