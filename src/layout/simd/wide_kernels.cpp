@@ -46,7 +46,7 @@ struct Batch {
   static void closest(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { closest_hits_of_group<L>(view, group, hits.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) { return closest_hits_of_group<L>(view, group, hits.data() + begin); },
         [&](std::size_t begin, std::size_t size) {
           closest_in_flight(view, rays.subspan(begin, size), hits.subspan(begin, size));
         });
@@ -54,22 +54,33 @@ struct Batch {
   static void any(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { any_hits_of_group<L>(view, group, blocked.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) { return any_hits_of_group<L>(view, group, blocked.data() + begin); },
         [&](std::size_t begin, std::size_t size) {
           any_in_flight(view, rays.subspan(begin, size), blocked.subspan(begin, size));
         });
   }
 
  private:
-  /// Cuts the batch into coherent groups and the runs between them.
+  /// Cuts the batch into coherent groups and the runs between them. After a group that was not worth it, ever more are
+  /// passed over, so that a batch that only looks coherent loses little.
   template <class OnGroup, class OnRun>
   static void for_each_run(const WideView& view, std::span<const Ray> rays, OnGroup on_group, OnRun on_run) {
     std::size_t done = 0, next = 0;
+    std::size_t pass_over = 0, penalty = 1;
     RayGroup group;
     for (; next + group_size <= rays.size(); next += group_size) {
+      if (pass_over > 0) {
+        --pass_over;
+        continue;
+      }
       if (!prepare_group(rays.subspan(next, group_size), view.reach, group)) continue;
+      if (!on_group(group, next)) {
+        pass_over = penalty;
+        penalty = std::min<std::size_t>(2 * penalty, 64);
+        continue;
+      }
+      penalty = std::max<std::size_t>(penalty / 2, 1);
       if (done != next) on_run(done, next - done);
-      on_group(group, next);
       done = next + group_size;
     }
     if (done != rays.size()) on_run(done, rays.size() - done);
