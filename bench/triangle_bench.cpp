@@ -6,10 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "layout/simd/targets.h"
 #include "layout/simd/wide_node.h"
 #include "measure/clock.h"
-
-#include "layout/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "triangle_bench.cpp"
@@ -21,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-using D = hn::FixedTag<float, 4>;
+using D = Floats<4>;
 
 std::uint32_t watertight(const LeafBlock<4>& block, const PreparedRay& ray, const Ray&) {
   const D d;

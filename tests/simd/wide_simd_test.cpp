@@ -37,12 +37,13 @@ class OnlyTarget {
   static void update() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
 };
 
-/// What this machine can run of what the kernels are compiled for.
+/// What this machine can run of what the kernels are compiled for, the best last. What every machine can run comes
+/// first.
 std::vector<std::int64_t> testable_targets() {
-  std::vector<std::int64_t> out;
-  const std::initializer_list<std::int64_t> compiled = {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3};
-  for (const std::int64_t target : compiled) {
-    if (target == HWY_EMU128 || (hwy::SupportedTargets() & target) != 0) out.push_back(target);
+  std::vector<std::int64_t> out{HWY_STATIC_TARGET};
+  const std::initializer_list<std::int64_t> better = {HWY_SSE4, HWY_AVX2, HWY_AVX3};
+  for (const std::int64_t target : better) {
+    if (target < HWY_STATIC_TARGET && (hwy::SupportedTargets() & target) != 0) out.push_back(target);
   }
   return out;
 }
