@@ -20,7 +20,8 @@
 namespace boxwood::cli {
 namespace {
 
-/// Builders on one layout, then widths, then orders; every peer follows. The first is what the others are held against.
+/// Builders on one layout, orders, widths without and with SIMD, then the presets; every peer follows. The first is
+/// what the others are held against.
 constexpr std::array default_recipes = {
     "median > binary",
     "middle > binary",
@@ -30,9 +31,12 @@ constexpr std::array default_recipes = {
     "binned > binary > trace(order=axis)",
     "binned > binary > trace(order=none)",
     "median(k=4) > wide(4)",
+    "binned > wide(4) > trace(simd=off)",
     "binned > wide(4)",
     "binned > wide(8)",
-    "sweep > wide(8)",
+    "fast",
+    "default",
+    "best",
 };
 
 std::vector<Recipe> recipes_of(const CompareOptions& options) {

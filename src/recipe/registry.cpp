@@ -26,9 +26,9 @@ const std::vector<Stage>& stages() {
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"fast", "binned(axis=longest, bins=8) > collapse(8) > wide(8)", "quick to build"},
-      {"default", "binned > collapse(8) > wide(8)", "a good tree for a moderate build"},
-      {"best", "sweep(axis=all) > collapse(8) > wide(8)", "the best tree there is yet, slow to build"},
+      {"fast", "ploc > collapse(8) > wide(8)", "quick to build"},
+      {"default", "ploc > reinsert > optimal-collapse(8) > wide(8)", "a good tree, small in memory, quick to build"},
+      {"best", "spatial > reinsert > optimal-collapse(8) > wide(8)", "fewest tests per ray; slow to build"},
   };
   return all;
 }

@@ -20,7 +20,7 @@ struct CollapseOptions {
   Method method = Method::area;
 };
 
-constexpr std::uint32_t largest_k = 64;
+constexpr std::uint32_t largest_k = 256;
 constexpr std::uint32_t largest_squaring_k = 16;
 
 /// Levels of the binary tree that become one; of the methods that merge levels.

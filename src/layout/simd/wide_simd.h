@@ -15,8 +15,8 @@ namespace boxwood {
 bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace);
 
 /// Encodes a tree for which simd_wide_supports() holds. Answers are bit-identical to every other layout's.
-/// Counted queries take the boxes of all `width` lanes as tested at each step, full or empty, and all triangles of a
-/// block. Throws UsageError for anything unsupported, Error when memory runs out.
+/// Counted queries count real children and real triangles, as every layout does; only the root's own box, which other
+/// layouts test first, is not tested here. Throws UsageError for anything unsupported, Error when memory runs out.
 std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents);
 
 }  // namespace boxwood
