@@ -33,7 +33,8 @@ struct BuildBenchSettings {
   unsigned threads = 1;
 };
 
-/// Contestants take turns; wall time. Peak memory is taken in a round of its own.
+/// Contestants take turns; each builds the scene's first mesh. Time as clock_for() says. Peak memory is taken in a
+/// round of its own.
 BuildBench bench_builds(const BuildBenchSettings& settings, ProgressSink& progress);
 
 }  // namespace boxwood::cli

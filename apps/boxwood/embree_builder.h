@@ -3,9 +3,13 @@
 #include <vector>
 
 #include "boxwood/scene.h"
+#include "measure/clock.h"
 #include "measure/interleave.h"
 
 namespace boxwood::cli {
+
+/// CPU time for one thread, which a busy machine does not disturb; wall time for more.
+inline Clock clock_for(unsigned threads) { return threads == 1 ? Clock::thread_cpu : Clock::wall; }
 
 struct NamedContestant {
   std::string name;
