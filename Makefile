@@ -2,6 +2,8 @@
 .DEFAULT_GOAL := help
 RELEASE := build
 CONFIGURE := cmake -G Ninja -S .
+# Sanitized builds: quick to compile, quick enough to run, with assertions.
+SANITIZED := -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DBOXWOOD_EXAMPLES=OFF
 THREADS := $(shell nproc)
 # Lets ccache recognise the same sources in another folder.
 export CCACHE_BASEDIR := $(CURDIR)
@@ -20,28 +22,31 @@ build: deps ## Build the program and the library (Release) into build/
 demo: build ## Compare acceleration structures on a scanned mesh and a procedural scene
 	@scripts/demo.sh $(RELEASE)/boxwood out/demo
 
-test: test-release test-sanitized test-threads ## The whole test suite: Release, ASan+UBSan, TSan
-	@scripts/test-summary.sh build/Testing build/asan/Testing build/tsan/Testing
+test: test-release test-sanitized ## The whole test suite, in Release and under ASan+UBSan
+	@scripts/test-summary.sh $(RELEASE)/Testing build/asan/Testing
 
 test-release: build
 	@ctest --test-dir $(RELEASE) -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
 test-sanitized: deps
-	@$(CONFIGURE) -B build/asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBOXWOOD_SANITIZE=address,undefined -DBOXWOOD_EXAMPLES=OFF >/dev/null
+	@$(CONFIGURE) -B build/asan $(SANITIZED) -DBOXWOOD_SANITIZE=address,undefined >/dev/null
 	@cmake --build build/asan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
-test-threads: deps
-	@$(CONFIGURE) -B build/tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF -DBOXWOOD_EXAMPLES=OFF >/dev/null
-	@cmake --build build/tsan --target test_build
-	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R 'Thread' -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
+test-threads: deps ## The parallel builders under the thread sanitizer
+	@$(CONFIGURE) -B build/tsan $(SANITIZED) -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF >/dev/null
+	@cmake --build build/tsan --target test_build test_fastbuild
+	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R AnyNumberOfThreads -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
 bench: build ## Build and trace speed as ratios to Embree 3, in one run
 	@$(RELEASE)/boxwood bench --peer embree
 
-lint: build ## clang-format and clang-tidy over everything
+check-format: ## Fail on a source that clang-format would change
 	@scripts/install-packages.sh --lint
-	@scripts/lint.sh $(RELEASE)
+	@git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
+
+lint: build check-format ## clang-format and clang-tidy over everything
+	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P $(THREADS) -n 4 clang-tidy -p $(RELEASE) --quiet
 
 format: ## Rewrite all sources in the house format
 	@git ls-files '*.cpp' '*.h' | xargs clang-format -i
@@ -55,4 +60,4 @@ install: build ## Install the library, its headers and the CMake package
 clean: ## Remove everything that was built
 	rm -rf build out
 
-.PHONY: help deps build demo test test-release test-sanitized test-threads bench lint format docs install clean
+.PHONY: help deps build demo test test-release test-sanitized test-threads bench lint check-format format docs install clean

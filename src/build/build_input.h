@@ -28,8 +28,8 @@ class Geometry {
   virtual Vec3 centroid(std::uint32_t primitive) const = 0;
   /// Box of the part of a primitive that lies in `region`; empty when nothing does. Thread safe.
   virtual Box clip(std::uint32_t primitive, const Box& region) const = 0;
-  /// The corners of a primitive that is a triangle; false, and nothing is written, when it is something else. Clips into
-  /// many slabs at once are quicker with it. Thread safe.
+  /// The corners of a primitive that is a triangle; false, and nothing is written, when it is something else. Clips
+  /// into many slabs at once are quicker with it. Thread safe.
   virtual bool corners(std::uint32_t /*primitive*/, Vec3 (&)[3]) const { return false; }
 };
 
