@@ -22,13 +22,13 @@ build: deps ## Build the program and the library (Release) into build/
 demo: build ## Compare acceleration structures on a scanned mesh and a procedural scene
 	@scripts/demo.sh $(RELEASE)/boxwood out/demo
 
-test: test-release test-sanitized ## The whole test suite, in Release and under ASan+UBSan
-	@scripts/test-summary.sh $(RELEASE)/Testing build/asan/Testing
+test: test-release ## The whole test suite
+	@scripts/test-summary.sh $(RELEASE)/Testing
 
 test-release: build
 	@ctest --test-dir $(RELEASE) -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
-test-sanitized: deps
+test-sanitized: deps ## The whole test suite under ASan+UBSan
 	@$(CONFIGURE) -B build/asan $(SANITIZED) -DBOXWOOD_SANITIZE=address,undefined >/dev/null
 	@cmake --build build/asan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
