@@ -225,7 +225,9 @@ TEST(Recipes, Markdown_NamesEveryStageAndOption) {
 }
 
 TEST(Scenes, EveryGenerator_CanBeInspected) {
-  for (const json& generator : run_for_json({"scenes"}).at("generators")) {
+  const json document = run_for_json({"scenes"});
+  EXPECT_GE(document.at("generators").size(), 10u);
+  for (const json& generator : document["generators"]) {
     const std::string scene = fmt::format("generate:{}", generator.at("name").get<std::string>());
     const Outcome outcome = run_boxwood({"inspect", scene, "-a", "fast"});
     EXPECT_EQ(outcome.exit_code, 0) << scene << ": " << outcome.err;
