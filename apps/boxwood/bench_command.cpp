@@ -2,9 +2,11 @@
 // trace, as ratios to Embree in the same run.
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "boxwood/ray_set.h"
 #include "build_bench.h"
-#include "commands.h"
+#include "command.h"
 #include "console.h"
 #include "exit_code.h"
 #include "measure/compare.h"
@@ -18,6 +20,13 @@
 
 namespace boxwood::cli {
 namespace {
+
+struct BenchOptions {
+  CommonOptions common{.threads = 1};
+  std::string peer;    ///< "embree", or empty for none
+  bool quick = false;  ///< small scenes and few repeats
+  bool huge = false;   ///< also build 28 million triangles
+};
 
 bool has_embree() {
   for (const Stage& stage : stages()) {
@@ -114,8 +123,6 @@ Json build_json(const BuildBench& bench) {
   return {{"name", bench.scene}, {"triangles", bench.triangles}, {"rows", std::move(rows)}};
 }
 
-}  // namespace
-
 int run_bench(const BenchOptions& options) {
   const bool peers = !options.peer.empty() && has_embree();
   if (!options.peer.empty() && !peers) {
@@ -136,6 +143,18 @@ int run_bench(const BenchOptions& options) {
   for (const Comparison& comparison : tracing) document["trace"].push_back(to_json(comparison));
   print_json(document);
   return exit_done;
+}
+
+}  // namespace
+
+void add_bench(CommandSet& commands) {
+  const auto options = std::make_shared<BenchOptions>();
+  Command command = commands.add("bench", "Measure the project's own speed: building, memory, tracing",
+                                 [options] { return run_bench(*options); });
+  command.choice("--peer", options->peer, {"embree"}, "NAME", "Library to measure against in the same run");
+  command.flag("--quick", options->quick, "Smaller scenes, fewer repeats");
+  command.flag("--huge", options->huge, "Also build 28 million triangles");
+  add_common(command, options->common);
 }
 
 }  // namespace boxwood::cli

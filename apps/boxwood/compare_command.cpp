@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "boxwood/ray_set.h"
-#include "commands.h"
+#include "command.h"
 #include "comparison_images.h"
 #include "console.h"
 #include "exit_code.h"
 #include "measure/compare.h"
+#include "options/options.h"
 #include "options/suggest.h"
 #include "recipe/stage.h"
 #include "report/comparison_text.h"
@@ -19,6 +21,18 @@
 
 namespace boxwood::cli {
 namespace {
+
+struct CompareOptions {
+  CommonOptions common{.threads = 1};
+  ViewOptions view;
+  std::vector<std::string> scenes;
+  std::vector<std::string> recipes;  ///< empty: a spread of everything there is
+  std::vector<std::string> rays;     ///< kinds; empty: primary, shadow, ao, diffuse
+  std::uint32_t repeats = 11;
+  std::string save_rays, load_rays;  ///< files
+  std::string images;                ///< folder
+  bool force = false;
+};
 
 /// Builders on one layout, orders, widths without and with SIMD, then the presets; every peer follows. The first is
 /// what the others are held against.
@@ -129,8 +143,6 @@ Json compare_and_show(const std::string& path, const std::vector<Recipe>& recipe
   return json;
 }
 
-}  // namespace
-
 int run_compare(const CompareOptions& options) {
   check_request(options);
   const std::vector<Recipe> recipes = recipes_of(options);
@@ -140,6 +152,26 @@ int run_compare(const CompareOptions& options) {
   if (options.common.json) print_json(Json{{"scenes", std::move(scenes)}});
   if (!options.common.json && !options.save_rays.empty()) print(fmt::format("The rays are in {}\n", options.save_rays));
   return agree ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+void add_compare(CommandSet& commands) {
+  const auto options = std::make_shared<CompareOptions>();
+  Command command = commands.add("compare", "Find out which recipe is faster on which rays, by how much and why",
+                                 [options] { return run_compare(*options); });
+  add_scenes(command, options->scenes);
+  add_recipes(command, options->recipes, "A contestant; say it once for each (none: a spread of everything there is)");
+  const std::vector<std::string> kinds(ray_kinds().begin(), ray_kinds().end());
+  command.list("--rays", options->rays, "KINDS", "Comma-separated ray kinds: " + option_text::join(kinds, ", "),
+               "primary,shadow,ao,diffuse");
+  command.integer("--repeat", options->repeats, 1, 10000, "Timed passes over each ray set");
+  add_view(command, options->view);
+  command.text("--save-rays", options->save_rays, "FILE", "Write the rays that were traced to a file");
+  command.text("--load-rays", options->load_rays, "FILE", "Trace the rays of such a file");
+  command.text("--images", options->images, "DIR", "Write a rendering and heat maps into a folder");
+  command.flag("--force", options->force, "Replace files that exist");
+  add_common(command, options->common);
 }
 
 }  // namespace boxwood::cli

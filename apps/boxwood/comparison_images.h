@@ -5,7 +5,7 @@
 
 #include "boxwood/recipe.h"
 #include "boxwood/scene.h"
-#include "commands.h"
+#include "shared_options.h"
 
 namespace boxwood::cli {
 

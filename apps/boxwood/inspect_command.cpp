@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
-#include "commands.h"
+#include "command.h"
 #include "console.h"
 #include "exit_code.h"
 #include "report/json.h"
@@ -16,6 +17,12 @@
 
 namespace boxwood::cli {
 namespace {
+
+struct InspectOptions {
+  CommonOptions common;
+  std::string scene;
+  std::string recipe = "default";
+};
 
 constexpr std::size_t most_trees_shown = 3;  // of scenes with many meshes; JSON has them all
 
@@ -85,8 +92,6 @@ Json inspection_json(const Scene& scene, const Structure& structure, const std::
           {"notes", to_json(scene.notes)}};
 }
 
-}  // namespace
-
 int run_inspect(const InspectOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
   const Scene scene = load_scene(options.scene);
@@ -108,6 +113,17 @@ int run_inspect(const InspectOptions& options) {
   for (const std::string& note : scene_notes(scene)) out += fmt::format("\nNote: {}\n", note);
   print(out);
   return exit_done;
+}
+
+}  // namespace
+
+void add_inspect(CommandSet& commands) {
+  const auto options = std::make_shared<InspectOptions>();
+  Command command = commands.add("inspect", "Show everything that is known about one tree",
+                                 [options] { return run_inspect(*options); });
+  add_scene(command, options->scene);
+  add_recipe(command, options->recipe);
+  add_common(command, options->common);
 }
 
 }  // namespace boxwood::cli

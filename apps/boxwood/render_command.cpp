@@ -1,10 +1,13 @@
 // `boxwood render`: one picture of one scene, and how fast its rays were traced.
 #include <fmt/format.h>
 
-#include "commands.h"
+#include <memory>
+
+#include "command.h"
 #include "console.h"
 #include "exit_code.h"
 #include "measure/clock.h"
+#include "options/options.h"
 #include "render/integrator.h"
 #include "render/render.h"
 #include "report/json.h"
@@ -15,6 +18,17 @@
 
 namespace boxwood::cli {
 namespace {
+
+struct RenderOptions {
+  CommonOptions common;
+  ViewOptions view;
+  std::string scene;
+  std::string recipe = "default";
+  std::string integrator = "eyelight";
+  std::uint32_t spp = 1;
+  std::string output = "out.png";
+  bool force = false;
+};
 
 struct Rendering {
   RenderResult result;
@@ -63,8 +77,6 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"notes", to_json(scene.notes)}};
 }
 
-}  // namespace
-
 int run_render(const RenderOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
   find_integrator(options.integrator);
@@ -89,6 +101,23 @@ int run_render(const RenderOptions& options) {
                       significant(rendering.result.heatmap_scale)));
   }
   return exit_done;
+}
+
+}  // namespace
+
+void add_render(CommandSet& commands) {
+  const auto options = std::make_shared<RenderOptions>();
+  Command command = commands.add("render", "Render a scene", [options] { return run_render(*options); });
+  add_scene(command, options->scene);
+  add_recipe(command, options->recipe);
+  std::vector<std::string> names;
+  for (const Integrator& integrator : integrators()) names.emplace_back(integrator.name);
+  command.text("--integrator", options->integrator, "NAME", "One of " + option_text::join(names, ", "));
+  add_view(command, options->view);
+  command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
+  command.text("-o,--output", options->output, "FILE", "Picture to write, .png or .exr");
+  command.flag("--force", options->force, "Replace the picture if there is one");
+  add_common(command, options->common);
 }
 
 }  // namespace boxwood::cli

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "aimed_rays.h"
 #include "boxwood/ray_set.h"
-#include "commands.h"
+#include "command.h"
 #include "console.h"
 #include "every_recipe.h"
 #include "exit_code.h"
@@ -19,6 +20,15 @@
 
 namespace boxwood::cli {
 namespace {
+
+struct VerifyOptions {
+  CommonOptions common;
+  ViewOptions view;
+  std::string scene;
+  std::vector<std::string> recipes;  ///< empty: every registered builder and layout, walked in every way
+  std::uint32_t rays = 10000;        ///< at most; brute force on a large mesh gets fewer
+  std::string load_rays;
+};
 
 constexpr double most_triangle_tests = 1.5e9;  // by brute force; some ten seconds on two cores
 constexpr std::uint64_t seed = 1;
@@ -216,8 +226,6 @@ std::string verification_text(const Scene& scene, const std::vector<Question>& q
   return out + fmt::format("\n{}\n", good ? "Every answer is right." : "THERE ARE WRONG ANSWERS.");
 }
 
-}  // namespace
-
 int run_verify(const VerifyOptions& options) {
   const std::vector<Recipe> recipes = options.recipes.empty() ? every_recipe() : parse_recipes(options.recipes);
   const Scene scene = load_scene(options.scene);
@@ -241,6 +249,20 @@ int run_verify(const VerifyOptions& options) {
   }
   const Totals totals = totals_of(questions, inside, verdicts);
   return totals.mismatches == 0 && totals.leaks == 0 ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+void add_verify(CommandSet& commands) {
+  const auto options = std::make_shared<VerifyOptions>();
+  Command command = commands.add("verify", "Check answers against brute force, and closed meshes for leaks",
+                                 [options] { return run_verify(*options); });
+  add_scene(command, options->scene);
+  add_recipes(command, options->recipes, "What to check; say it once for each (none: everything there is)");
+  command.integer("--rays", options->rays, 1, 100000000, "Rays at most; large meshes get fewer");
+  command.text("--load-rays", options->load_rays, "FILE", "Also check the rays of a file");
+  add_view(command, options->view);
+  add_common(command, options->common);
 }
 
 }  // namespace boxwood::cli

@@ -11,7 +11,7 @@
 #include "boxwood/recipe.h"
 #include "boxwood/scene.h"
 #include "boxwood/structure.h"
-#include "commands.h"
+#include "shared_options.h"
 
 namespace boxwood::cli {
 
