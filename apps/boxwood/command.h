@@ -62,6 +62,7 @@ void add_render(CommandSet& commands);
 void add_compare(CommandSet& commands);
 void add_inspect(CommandSet& commands);
 void add_verify(CommandSet& commands);
+void add_cameras(CommandSet& commands);
 void add_bench(CommandSet& commands);
 void add_recipes(CommandSet& commands);
 void add_scenes(CommandSet& commands);
