@@ -63,6 +63,7 @@ void add_compare(CommandSet& commands);
 void add_inspect(CommandSet& commands);
 void add_verify(CommandSet& commands);
 void add_bench(CommandSet& commands);
+void add_study(CommandSet& commands);
 void add_recipes(CommandSet& commands);
 void add_scenes(CommandSet& commands);
 

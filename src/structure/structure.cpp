@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "layout/layout.h"
@@ -18,32 +18,44 @@
 namespace boxwood {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Adds the time from its making to add_to() to a report, on the wall's clock and on this thread's.
+class Stopwatch {
+ public:
+  void add_to(BuildReport& report) const {
+    report.build_ms += 1e3 * (seconds(CLOCK_MONOTONIC) - wall_);
+    report.build_cpu_ms += 1e3 * (seconds(CLOCK_THREAD_CPUTIME_ID) - cpu_);
+  }
 
-double milliseconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
+ private:
+  static double seconds(clockid_t clock) {
+    timespec time;
+    clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  double wall_ = seconds(CLOCK_MONOTONIC), cpu_ = seconds(CLOCK_THREAD_CPUTIME_ID);
+};
 
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
 std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
                                           BuildReport& report) {
-  const auto begin_tree = Clock::now();
+  const Stopwatch tree_time;
   Tree tree = pipeline.tree(std::move(input));
-  report.build_ms += milliseconds_since(begin_tree);
+  tree_time.add_to(report);
   report.nodes += tree.nodes.size();
   if (contents.mesh) report.sah_cost += sah_cost(tree);
-  const auto begin_layout = Clock::now();
+  const Stopwatch layout_time;
   auto layout = pipeline.encode(std::move(tree), contents);
-  report.build_ms += milliseconds_since(begin_layout);
+  layout_time.add_to(report);
   report.bytes += layout->bytes();
   return layout;
 }
 
 std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, BuildReport& report) {
-  const auto begin = Clock::now();
+  const Stopwatch time;
   const MeshGeometry geometry(mesh);
   BuildInput input{geometry.references(), &geometry};
-  report.build_ms += milliseconds_since(begin);
+  time.add_to(report);
   report.primitives += input.references.size();
   report.left_out += mesh.triangles.size() - input.references.size();
   Contents contents;
@@ -65,9 +77,9 @@ std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipelin
 }
 
 std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& scene, BuildReport& report) {
-  const auto begin = Clock::now();
+  const Stopwatch time;
   auto layout = peer.stage->trace_peer(peer.options, scene);
-  report.build_ms = milliseconds_since(begin);
+  time.add_to(report);
   report.bytes = layout->bytes();
   report.primitives = scene.unique_triangles();
   return layout;
