@@ -21,7 +21,6 @@ struct BuildOptions {
 /// What a build cost and what it made.
 struct BuildReport {
   double build_ms = 0;           ///< wall time from triangles to a structure that can be traced
-  double build_cpu_ms = 0;       ///< CPU time of the same by the building thread alone; for builds on one thread
   std::size_t bytes = 0;         ///< held by the structure, beyond the caller's mesh
   double sah_cost = 0;           ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
   std::uint64_t nodes = 0;       ///< inner nodes and leaves before layout

@@ -30,6 +30,7 @@ struct ProbeInput {
   const Structure& structure;    ///< built by structure.recipe()
   const RaySet* rays = nullptr;  ///< null for probes of a structure
   const RaySetSettings& view;    ///< camera, image size and seed that the rays come from
+  double build_cpu_ms = 0;       ///< CPU time that one thread took to build the structure and take its statistics
   unsigned threads = 1;          ///< of the arena that it runs in
   /// The trees behind the structure, one per mesh; none for a peer. Built anew when first asked for.
   std::function<const std::vector<Tree>&()> trees;

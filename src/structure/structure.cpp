@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-#include <time.h>
 
 #include <algorithm>
+#include <chrono>
 #include <vector>
 
 #include "layout/layout.h"
@@ -18,44 +18,32 @@
 namespace boxwood {
 namespace {
 
-/// Adds the time from its making to add_to() to a report, on the wall's clock and on this thread's.
-class Stopwatch {
- public:
-  void add_to(BuildReport& report) const {
-    report.build_ms += 1e3 * (seconds(CLOCK_MONOTONIC) - wall_);
-    report.build_cpu_ms += 1e3 * (seconds(CLOCK_THREAD_CPUTIME_ID) - cpu_);
-  }
+using Clock = std::chrono::steady_clock;
 
- private:
-  static double seconds(clockid_t clock) {
-    timespec time;
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
-  double wall_ = seconds(CLOCK_MONOTONIC), cpu_ = seconds(CLOCK_THREAD_CPUTIME_ID);
-};
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
 
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
 std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
                                           BuildReport& report) {
-  const Stopwatch tree_time;
+  const auto begin_tree = Clock::now();
   Tree tree = pipeline.tree(std::move(input));
-  tree_time.add_to(report);
+  report.build_ms += milliseconds_since(begin_tree);
   report.nodes += tree.nodes.size();
   if (contents.mesh) report.sah_cost += sah_cost(tree);
-  const Stopwatch layout_time;
+  const auto begin_layout = Clock::now();
   auto layout = pipeline.encode(std::move(tree), contents);
-  layout_time.add_to(report);
+  report.build_ms += milliseconds_since(begin_layout);
   report.bytes += layout->bytes();
   return layout;
 }
 
 std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, BuildReport& report) {
-  const Stopwatch time;
+  const auto begin = Clock::now();
   const MeshGeometry geometry(mesh);
   BuildInput input{geometry.references(), &geometry};
-  time.add_to(report);
+  report.build_ms += milliseconds_since(begin);
   report.primitives += input.references.size();
   report.left_out += mesh.triangles.size() - input.references.size();
   Contents contents;
@@ -77,9 +65,9 @@ std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipelin
 }
 
 std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& scene, BuildReport& report) {
-  const Stopwatch time;
+  const auto begin = Clock::now();
   auto layout = peer.stage->trace_peer(peer.options, scene);
-  time.add_to(report);
+  report.build_ms = milliseconds_since(begin);
   report.bytes = layout->bytes();
   report.primitives = scene.unique_triangles();
   return layout;

@@ -10,6 +10,7 @@
 
 #include "boxwood/ray_set.h"
 #include "boxwood/structure.h"
+#include "measure/clock.h"
 #include "measure/probe.h"
 #include "recipe/stage.h"
 #include "structure/pipeline.h"
@@ -23,6 +24,7 @@ namespace {
 struct Contestant {
   Recipe recipe;
   std::optional<Structure> structure;
+  double build_cpu_ms = 0;
 };
 
 bool is_scene_wanted(const Study& study, const SceneSpec& scene) {
@@ -220,7 +222,9 @@ void Run::build_structures(const StudyScene& scene, std::vector<Contestant>& con
       const bool last = round + 1 == study_.run.builds;
       if (missing.empty() && !(last && !contestant.structure)) continue;
       contestant.structure.reset();  // the old one must not take memory from the new one
+      const double begin = now(Clock::thread_cpu);
       contestant.structure = build(scene.scene, contestant.recipe, {.threads = study_.run.threads});
+      contestant.build_cpu_ms = 1e3 * (now(Clock::thread_cpu) - begin);
       for (const auto& [what, probe] : missing) {
         probe_and_store(what, *probe, input(scene, contestant, nullptr, view));
       }
@@ -256,7 +260,7 @@ void Run::measure_rays(const StudyScene& scene, const Camera& view, const RaySet
 
 void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
   std::vector<Contestant> contestants;
-  for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), std::nullopt});
+  for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), {}, 0});
   if (contestants.empty()) return;
   if (is_scene_done(scene, contestants)) {
     steps_ += steps_in(study_, spec);
