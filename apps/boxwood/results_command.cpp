@@ -84,7 +84,7 @@ void add_results(CommandSet& commands) {
   command.text("--metric", options->filter.metric, "NAME", "Only this metric");
   command.text("--probe", options->filter.probe, "NAME", "Only of this probe");
   command.integer("--environment", options->environment, 0, 1u << 30, "Only of this machine and program; 0: all");
-  command.text("--compare", options->other, "STORE", "What changed from STORE to this one");
+  command.text("--compare", options->other, "STORE", "Another store: what changed from the first to it");
   command.flag("--all", options->all, "With --compare: also what did not change");
   command.flag("--csv", options->csv, "Print CSV, one line per sample");
   add_json(command, options->json);

@@ -190,12 +190,13 @@ const std::vector<Tree>& Run::trees_of(const StudyScene& scene, const Contestant
 
 ProbeInput Run::input(const StudyScene& scene, const Contestant& contestant, const RaySet* rays,
                       const RaySetSettings& view) {
-  return {scene.scene,
-          *contestant.structure,
-          rays,
-          view,
-          study_.run.threads,
-          [this, &scene, &contestant]() -> const std::vector<Tree>& { return trees_of(scene, contestant); }};
+  return {.scene = scene.scene,
+          .structure = *contestant.structure,
+          .rays = rays,
+          .view = view,
+          .build_cpu_ms = contestant.build_cpu_ms,
+          .threads = study_.run.threads,
+          .trees = [this, &scene, &contestant]() -> const std::vector<Tree>& { return trees_of(scene, contestant); }};
 }
 
 void Run::probe_and_store(const Subject& subject, const Probe& probe, const ProbeInput& input) {
