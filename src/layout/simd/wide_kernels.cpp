@@ -64,22 +64,26 @@ struct InFlight {
 };
 
 /// Coherent groups of 64 go as packets, all between them as rays in flight.
-template <int L>
+template <class Steps, int L>
 struct Batch {
   static void closest(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { return closest_hits_of_group<L>(view, group, hits.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) {
+          return closest_hits_of_group<Steps::width, L>(view, group, hits.data() + begin);
+        },
         [&](std::size_t begin, std::size_t size) {
-          InFlight<Steps8, L>::closest(view, rays.subspan(begin, size), hits.subspan(begin, size));
+          InFlight<Steps, L>::closest(view, rays.subspan(begin, size), hits.subspan(begin, size));
         });
   }
   static void any(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { return any_hits_of_group<L>(view, group, blocked.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) {
+          return any_hits_of_group<Steps::width, L>(view, group, blocked.data() + begin);
+        },
         [&](std::size_t begin, std::size_t size) {
-          InFlight<Steps8, L>::any(view, rays.subspan(begin, size), blocked.subspan(begin, size));
+          InFlight<Steps, L>::any(view, rays.subspan(begin, size), blocked.subspan(begin, size));
         });
   }
 
@@ -118,14 +122,14 @@ WideKernels kernels() {
                   Each::closest_counted, Each::any_counted};
 #if HWY_MAX_BYTES >= 32
   if constexpr (N == 8) {
-    out.closest_hits = Batch<L>::closest;
-    out.any_hits = Batch<L>::any;
+    out.closest_hits = Batch<Steps8, L>::closest;
+    out.any_hits = Batch<Steps8, L>::any;
   }
 #endif
 #if HWY_TARGET <= HWY_AVX3
   if constexpr (N == 16) {
-    out.closest_hits = InFlight<Steps16, L>::closest;
-    out.any_hits = InFlight<Steps16, L>::any;
+    out.closest_hits = Batch<Steps16, L>::closest;
+    out.any_hits = Batch<Steps16, L>::any;
   }
 #endif
   return out;
