@@ -209,8 +209,8 @@ std::vector<Contestant> embree_contestants(const std::vector<std::unique_ptr<Emb
   return out;
 }
 
-void add_ours(std::vector<Contestant>& contestants, const std::string& name,
-              const Structure& structure, std::vector<Hit>& hits, std::vector<std::uint8_t>& blocked) {
+void add_ours(std::vector<Contestant>& contestants, const std::string& name, const Structure& structure,
+              std::vector<Hit>& hits, std::vector<std::uint8_t>& blocked) {
   contestants.push_back({name + ".single",
                          false,
                          [&](const RaySet& set) {
@@ -272,12 +272,6 @@ int run(int argc, char** argv) {
   std::size_t longest = 0;
   for (RaySet& set : sets) {
     if (set.kind != "primary" && set.rays.size() > settings.random_rays) set.rays.resize(settings.random_rays);
-    if (const char* few = std::getenv("FEW")) {
-      const std::size_t n = std::stoul(few);
-      std::uint32_t x = 1;
-      std::vector<Ray> from(set.rays.begin() + 5000, set.rays.begin() + 5000 + n);
-      for (Ray& ray : set.rays) x = x * 1664525u + 1013904223u, ray = from[(x >> 8) % n];
-    }
     longest = std::max(longest, set.rays.size());
   }
 
