@@ -10,7 +10,7 @@ namespace boxwood {
 namespace {
 
 struct ExhaustiveOptions {
-  std::uint32_t most = 12;
+  std::uint32_t most = 8;
   Partitions partitions = Partitions::sorted;
   Stop stop = Stop::cost;
   std::uint32_t leaf = 4;
