@@ -6,6 +6,7 @@ namespace boxwood {
 Probe build_probe();
 Probe size_probe();
 Probe tree_probe();
+Probe quality_probe();
 Probe time_probe();
 Probe tests_probe();
 Probe answers_probe();
