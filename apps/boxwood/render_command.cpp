@@ -6,6 +6,7 @@
 #include "command.h"
 #include "console.h"
 #include "exit_code.h"
+#include "expected_view.h"
 #include "measure/clock.h"
 #include "options/options.h"
 #include "render/integrator.h"
@@ -122,7 +123,10 @@ int run_render(const RenderOptions& options) {
   if (options.cameras.empty()) shots.front().camera = find_camera(scene, options.view);
   for (const std::string& note : scene_notes(scene)) complain(note);
   check_interrupt();
-  const Structure structure = build(scene, recipe, {.threads = options.common.threads});
+  // Along a path the structure is built once, for the first picture.
+  std::optional<ExpectedUse> use;
+  if (needs_use(recipe)) use = expected_view(scene, shots.front().camera, options.view, options.common.threads);
+  const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
   Json documents = Json::array();
   if (!options.common.json) {
     print(fmt::format("{}: {}, built in {} by {}\n", scene.name, counted(scene.placed_triangles(), "triangle"),

@@ -13,10 +13,16 @@
 namespace boxwood {
 
 class Layout;
+struct ExpectedUse;
 
 struct BuildOptions {
   unsigned threads = 0;  ///< 0: as many as the machine has. The tree is the same for any number.
+  /// What will be traced, for recipes that want to know (boxwood/expected_use.h); must live until build() returns.
+  const ExpectedUse* use = nullptr;
 };
+
+/// Whether building by `recipe` takes BuildOptions::use.
+bool needs_use(const Recipe& recipe);
 
 /// What a build cost and what it made.
 struct BuildReport {
@@ -57,7 +63,8 @@ class Structure {
 
 /// Builds the structure that `recipe` describes over `scene`. Deterministic: same input, same structure, for any number
 /// of threads. Unusable triangles are left out and counted in report(). The scene may be freed afterwards.
-/// Throws UsageError when stages do not fit each other, Error when the scene cannot be built.
+/// Throws UsageError when stages do not fit each other or need a use that is not told, Error when the scene cannot be
+/// built.
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options = {});
 Structure build(const Scene& scene, std::string_view recipe = "default", const BuildOptions& options = {});
 

@@ -26,9 +26,7 @@ StageCall parse_call(std::string_view text, std::string_view recipe) {
   }
   StageCall call{&find_stage(parts.name), {}};
   call.options = call.stage->defaults;
-  for (const std::string_view argument : parts.arguments) {
-    set_option(call.stage->name, call.stage->options, call.options, argument);
-  }
+  set_options(call.stage->options, call.options, parts);
   return call;
 }
 
