@@ -48,6 +48,8 @@ struct Stage {
   /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set
   /// it keeps the arity it finds.
   std::function<std::uint32_t(const std::any& options)> arity;
+  /// Of a builder: its trees tell the cells of an octree (Tree::cells). Of a layout: it encodes those.
+  bool cells = false;
 };
 
 /// A stage with the options a recipe gave it.
@@ -101,6 +103,7 @@ Stage refinement_stage(std::string name, std::string summary, std::string source
   Stage stage = describe(StageKind::refinement, std::move(name), std::move(summary), std::move(source),
                          std::move(description), arity);
   stage.refine = [refine](const std::any& options, Tree tree) {
+    tree.cells = {};  // of the nodes as they were
     return refine(std::any_cast<const Options&>(options), std::move(tree));
   };
   return stage;
