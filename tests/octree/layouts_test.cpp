@@ -94,7 +94,7 @@ class OctreeLayout : public testing::TestWithParam<std::string> {};
 
 TEST_P(OctreeLayout, GivesTheAnswersOfBruteForceHoweverItIsWalked) {
   const Call layout = layout_call(GetParam());
-  const std::string builder = "octree(primitives=3, multiplication=4, depth=7)";
+  const std::string builder = "octree(primitives=3, multiplication=4, depth=5, budget=10000)";
   for (const TraceOptions& trace :
        {TraceOptions{}, TraceOptions{.simd = false}, TraceOptions{.order = ChildOrder::none},
         TraceOptions{.order = ChildOrder::none, .cull = false, .mode = TraversalMode::recursive, .simd = false},
@@ -110,7 +110,7 @@ TEST_P(OctreeLayout, ClosedMesh_IsNeverLeftFromInside) {
   const Call layout = layout_call(GetParam());
   for (const Scene& scene :
        {test::sphere(12), test::cube(8), test::transformed(test::sphere(8), 1, {1000, -2000, 3000})}) {
-    const auto encoded = encode(scene, layout, "octree(primitives=2, multiplication=3)");
+    const auto encoded = encode(scene, layout, "octree(primitives=2, multiplication=3, depth=6)");
     const Box box = scene.bounds();
     Random random(3);
     for (int i = 0; i < 3000; ++i) {
@@ -236,11 +236,18 @@ std::vector<RayCounters> counters_of(const Layout& layout, const std::vector<Ray
 TEST(OctreeLayouts, WalkTheSameCellsInTheSameOrder) {
   const Scene scene = test::soup(2000, 0.1f, 3);
   const std::vector<Ray> rays = test::troubling_rays(scene, 600, 8);
-  const auto expected = counters_of(*encode(scene, layout_call("octree"), "octree"), rays);
+  // What a mailbox forgets depends on how a layout numbers primitives.
+  const auto without_mailbox = [](std::string text) {
+    if (text.back() != ')') return text + "(mailbox=off)";
+    text.back() = ',';
+    return text + " mailbox=off)";
+  };
+  const auto expected = counters_of(*encode(scene, layout_call("octree(mailbox=off)"), "octree"), rays);
   for (const std::string& text : layout_texts) {
     if (text.find("mailbox") != std::string::npos) continue;
-    EXPECT_EQ(counters_of(*encode(scene, layout_call(text), "octree"), rays), expected) << text;
-    EXPECT_EQ(counters_of(*encode(scene, layout_call(text), "octree", {.simd = false}), rays), expected) << text;
+    const Call call = layout_call(without_mailbox(text));
+    EXPECT_EQ(counters_of(*encode(scene, call, "octree"), rays), expected) << text;
+    EXPECT_EQ(counters_of(*encode(scene, call, "octree", {.simd = false}), rays), expected) << text;
   }
 }
 

@@ -31,8 +31,8 @@ inline Tree octree_of(const Mesh& mesh, const std::string& text) {
 
 inline const std::vector<std::string>& octree_calls() {
   static const std::vector<std::string> all = {"octree",
-                                               "octree(primitives=2, multiplication=8, depth=6)",
-                                               "octree(primitives=2, multiplication=3)",
+                                               "octree(primitives=2, multiplication=8, depth=4, budget=10000)",
+                                               "octree(primitives=2, multiplication=3, depth=9)",
                                                "octree(primitives=4, exact=off)",
                                                "octree(decider=depth, depth=3, primitives=3)",
                                                "octree(decider=cluster, depth=5, primitives=4)",

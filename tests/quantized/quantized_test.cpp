@@ -7,7 +7,7 @@
 #include "boxwood/error.h"
 #include "layout/quantized/quantized_nodes.h"
 #include "layout/quantized/stages.h"
-#include "layout/quantized/testers.h"
+#include "layout/quantized/testers-inl.h"
 #include "options/call.h"
 #include "support/differential.h"
 #include "support/layouts.h"
@@ -193,8 +193,7 @@ void expect_holds(const Tester& tester, const typename Tester::Slot& slot, const
 }
 
 TEST(Quantized, DecodedBoxesHoldTheExactOnesAtEveryNode) {
-  struct NoRay {};
-  const NoRay no_ray;
+  const HWY_NAMESPACE::PreparedRay no_ray = HWY_NAMESPACE::prepare({{0, 0, 0}, 0, {0, 0, 1}}, 1);
   for (const float scale : {1e-6f, 1.0f, 1e9f}) {
     const Scene scene = test::soup(3000, 0.05f, 5, scale, {scale * 100, 0, 0});
     for (const std::uint32_t k : {2u, 4u, 8u}) {
@@ -202,12 +201,12 @@ TEST(Quantized, DecodedBoxesHoldTheExactOnesAtEveryNode) {
       const Tree exact = tree;
       const QuantizedArity arity = k == 2 ? QuantizedArity::k2 : k == 4 ? QuantizedArity::k4 : QuantizedArity::k8;
       const QuantizedChunks chunks = encode_quantized_chunks(tree, {.k = arity, .frame = QuantizedFrame::parent});
-      const ParentFrameTester<NoRay> tester(chunks, no_ray);
+      const HWY_NAMESPACE::ParentFrameTester tester(chunks, no_ray);
       expect_holds(tester, tester.root_slot(), tester.root_link(), exact, 0);
     }
     const Tree tree = test::split_tree(test::triangle_boxes(scene.meshes[0]), {2, 1, true});
     const QuantizedPointers pointers = encode_quantized_pointers(tree);
-    const PointerTester<NoRay> tester(pointers, no_ray);
+    const HWY_NAMESPACE::PointerTester tester(pointers, no_ray);
     expect_holds(tester, tester.root_slot(), tester.root_link(), tree, 0);
   }
 }

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "layout/quantized/quantized_chunk_kernels.cpp"
 #include <hwy/foreach_target.h>
 //
-#include "layout/quantized/testers.h"
+#include "layout/quantized/testers-inl.h"
 #include "layout/walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,11 +12,11 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 
 Kernels<QuantizedChunks, TriangleLeaves> choose_quantized_chunk_over_triangles(const TraceOptions& trace) {
-  return choose_kernels<ChunkFrameTester<PreparedRay>, QuantizedChunks, TriangleLeaves>(trace);
+  return choose_kernels<ChunkFrameTester, QuantizedChunks, TriangleLeaves>(trace);
 }
 
 Kernels<QuantizedChunks, InstanceLeaves> choose_quantized_chunk_over_instances(const TraceOptions& trace) {
-  return choose_kernels<ChunkFrameTester<PreparedRay>, QuantizedChunks, InstanceLeaves>(trace);
+  return choose_kernels<ChunkFrameTester, QuantizedChunks, InstanceLeaves>(trace);
 }
 
 }  // namespace HWY_NAMESPACE

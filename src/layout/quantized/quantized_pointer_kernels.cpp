@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "layout/quantized/quantized_pointer_kernels.cpp"
 #include <hwy/foreach_target.h>
 //
-#include "layout/quantized/testers.h"
+#include "layout/quantized/testers-inl.h"
 #include "layout/walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,11 +12,11 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 
 Kernels<QuantizedPointers, TriangleLeaves> choose_quantized_pointer_over_triangles(const TraceOptions& trace) {
-  return choose_kernels<PointerTester<PreparedRay>, QuantizedPointers, TriangleLeaves>(trace);
+  return choose_kernels<PointerTester, QuantizedPointers, TriangleLeaves>(trace);
 }
 
 Kernels<QuantizedPointers, InstanceLeaves> choose_quantized_pointer_over_instances(const TraceOptions& trace) {
-  return choose_kernels<PointerTester<PreparedRay>, QuantizedPointers, InstanceLeaves>(trace);
+  return choose_kernels<PointerTester, QuantizedPointers, InstanceLeaves>(trace);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,14 +1,20 @@
-// What the walk asks of quantized nodes; see layout/walk-inl.h. Everything is inlined by force, so that a kernel
-// decodes and counts bits with its own instruction set. `Ray` is its prepared ray.
-#pragma once
-#include <hwy/base.h>
+// What the walk asks of quantized nodes; see layout/walk-inl.h. Compiled once per instruction set.
+#if defined(BOXWOOD_LAYOUT_QUANTIZED_TESTERS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_QUANTIZED_TESTERS_INL_H
+#undef BOXWOOD_LAYOUT_QUANTIZED_TESTERS_INL_H
+#else
+#define BOXWOOD_LAYOUT_QUANTIZED_TESTERS_INL_H
+#endif
 
 #include <cstring>
 
 #include "layout/bits/rank.h"
 #include "layout/quantized/quantized_nodes.h"
+#include "trace/prepared_ray-inl.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace boxwood {
+namespace HWY_NAMESPACE {
 
 HWY_INLINE Link quantized_link(std::uint8_t axis, std::uint32_t first, std::uint32_t count, bool leaf) {
   Link link;
@@ -32,11 +38,10 @@ struct FramedSlot {
   HWY_INLINE Box box() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
 };
 
-template <class Ray>
 class PointerTester {
  public:
   using Slot = FramedSlot;
-  PointerTester(const QuantizedPointers& nodes, const Ray& ray)
+  PointerTester(const QuantizedPointers& nodes, const PreparedRay& ray)
       : root_(nodes.root_box), nodes_(nodes.nodes.data()), ray_(ray) {}
 
   const Box& root_box() const { return root_; }
@@ -59,7 +64,7 @@ class PointerTester {
  private:
   const Box& root_;
   const PointerNode* nodes_;
-  const Ray& ray_;
+  const PreparedRay& ray_;
 };
 
 /// Finds chunks, bits and links from places.
@@ -113,11 +118,10 @@ class ChunkReader {
 };
 
 /// Keys relative to the chunk's root: every box can be decoded alone.
-template <class Ray>
 class ChunkFrameTester {
  public:
   using Slot = std::uint32_t;
-  ChunkFrameTester(const QuantizedChunks& nodes, const Ray& ray) : reader_(nodes), ray_(ray) {}
+  ChunkFrameTester(const QuantizedChunks& nodes, const PreparedRay& ray) : reader_(nodes), ray_(ray) {}
 
   const Box& root_box() const { return reader_.nodes().root_box; }
   static constexpr Slot root_slot() { return ChunkReader::root_place; }
@@ -134,15 +138,14 @@ class ChunkFrameTester {
 
  private:
   ChunkReader reader_;
-  const Ray& ray_;
+  const PreparedRay& ray_;
 };
 
 /// Keys relative to the parent's box as decoded, in a chunk's first group to the chunk's root.
-template <class Ray>
 class ParentFrameTester {
  public:
   using Slot = FramedSlot;
-  ParentFrameTester(const QuantizedChunks& nodes, const Ray& ray) : reader_(nodes), ray_(ray) {}
+  ParentFrameTester(const QuantizedChunks& nodes, const PreparedRay& ray) : reader_(nodes), ray_(ray) {}
 
   const Box& root_box() const { return reader_.nodes().root_box; }
   Slot root_slot() const { return Slot::make(ChunkReader::root_place, root_box()); }
@@ -164,7 +167,10 @@ class ParentFrameTester {
 
  private:
   ChunkReader reader_;
-  const Ray& ray_;
+  const PreparedRay& ray_;
 };
 
+}  // namespace HWY_NAMESPACE
 }  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
