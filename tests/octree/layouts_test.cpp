@@ -206,7 +206,7 @@ double fact(const Layout& layout, const std::string& name) {
 TEST(OctreeLayouts, ReportTheBytesOfTheFormulas) {
   const Scene scene = test::soup(3000, 0.1f, 3);
   const auto plain = encode(scene, layout_call("octree"), "octree");
-  const double nodes = fact(*plain, "octree_nodes"), references = fact(*plain, "references");
+  const double nodes = fact(*plain, "octree_nodes"), references = fact(*plain, "leaf_references");
   EXPECT_EQ(fact(*plain, "octree_leaves"), (nodes - 1) / 8 * 7 + 1);
   EXPECT_EQ(fact(*plain, "topology_bytes"), 4 * (nodes + 7));
   EXPECT_EQ(plain->bytes(), static_cast<std::size_t>(2 * 4 * (nodes + 7) + 4 * references + 40 * 3000));

@@ -31,7 +31,7 @@ struct OctreeHead {
   void add_facts(std::vector<LayoutFact>& facts) const {
     facts.push_back({"octree_nodes", static_cast<double>(nodes())});
     facts.push_back({"octree_leaves", static_cast<double>(filled ? 7 * inner_nodes + 1 : 0)});
-    facts.push_back({"references", static_cast<double>(references.size())});
+    facts.push_back({"leaf_references", static_cast<double>(references.size())});
     facts.push_back(
         {"primitive_multiplication", static_cast<double>(references.size()), static_cast<double>(primitives)});
   }
