@@ -28,6 +28,7 @@ struct RenderOptions {
   std::string recipe = "default";
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
+  std::uint32_t heatmap_scale = 0;
   std::string output = "out.png";
   std::string cameras;  ///< file; one picture for each of its cameras
   bool force = false;
@@ -68,6 +69,7 @@ Rendering render_timed(const Scene& scene, const Structure& structure, const Ren
   settings.height = options.view.height;
   settings.spp = options.spp;
   settings.integrator = options.integrator;
+  settings.heatmap_scale = static_cast<float>(options.heatmap_scale);
   ProgressBar bar(stop_requested());
   const double begin = now(Clock::wall);
   Rendering rendering;
@@ -161,6 +163,8 @@ void add_render(CommandSet& commands) {
                "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
   command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
+  command.integer("--heatmap-scale", options->heatmap_scale, 0, 1u << 20,
+                  "Tests per ray at full brightness of a heat map, so that several compare; 0: the most of any pixel");
   command.text("-o,--output", options->output, "FILE", "Picture to write, .png or .exr");
   command.flag("--force", options->force, "Replace the picture if there is one");
   add_common(command, options->common);
