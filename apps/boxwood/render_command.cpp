@@ -1,7 +1,10 @@
 // `boxwood render`: one picture of one scene, and how fast its rays were traced.
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "command.h"
 #include "console.h"
@@ -10,6 +13,7 @@
 #include "options/options.h"
 #include "render/integrator.h"
 #include "render/render.h"
+#include "render/tone_map.h"
 #include "report/json.h"
 #include "report/number_text.h"
 #include "report/progress_bar.h"
@@ -27,12 +31,15 @@ struct RenderOptions {
   std::string recipe = "default";
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
+  std::uint32_t depth = 8;
+  std::optional<float> exposure;  ///< stops; none: by the picture's own brightness
   std::string output = "out.png";
   std::string cameras;  ///< file; one picture for each of its cameras
   bool force = false;
 };
 
 struct Rendering {
+  ViewOptions view;  ///< as it was rendered
   RenderResult result;
   double seconds = 0;
 };
@@ -59,17 +66,27 @@ std::vector<Shot> plan_shots(const RenderOptions& options) {
   return shots;
 }
 
+/// A camera whose file asks for a size gets it, unless another was asked for.
+ViewOptions sized_for(const Camera& camera, ViewOptions view) {
+  if (view.sized || camera.width == 0) return view;
+  view.width = camera.width;
+  view.height = camera.height;
+  return view;
+}
+
 Rendering render_timed(const Scene& scene, const Structure& structure, const RenderOptions& options,
                        const Camera& camera) {
+  Rendering rendering;
+  rendering.view = sized_for(camera, options.view);
   RenderSettings settings;
   settings.camera = camera;
-  settings.width = options.view.width;
-  settings.height = options.view.height;
+  settings.width = rendering.view.width;
+  settings.height = rendering.view.height;
   settings.spp = options.spp;
+  settings.depth = options.depth;
   settings.integrator = options.integrator;
   ProgressBar bar(stop_requested());
   const double begin = now(Clock::wall);
-  Rendering rendering;
   rendering.result = run_in_arena(options.common.threads, [&] { return render(scene, structure, settings, &bar); });
   rendering.seconds = now(Clock::wall) - begin;
   return rendering;
@@ -92,12 +109,14 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"triangles", scene.placed_triangles()},
           {"recipe", structure.recipe().text()},
           {"integrator", options.integrator},
-          {"width", options.view.width},
-          {"height", options.view.height},
+          {"width", rendering.view.width},
+          {"height", rendering.view.height},
           {"spp", options.spp},
+          {"depth", options.depth},
           {"build_ms", measured_once(structure.report().build_ms)},
           {"render_ms", measured_once(rendering.seconds * 1000)},
           {"rays", to_json(rendering.result.ray_kinds)},
+          {"queries", totals_by_query(rendering.result.ray_kinds)},
           {"heatmap_scale", rendering.result.heatmap_scale},
           {"file", shot.file.string()},
           {"notes", to_json(scene.notes)}};
@@ -113,9 +132,25 @@ std::string rendering_text(const Shot& shot, const Rendering& rendering) {
   return text;
 }
 
+/// Pictures of radiance get their tones mapped, except in files that can hold them as they are.
+void write_picture(const std::filesystem::path& file, const Integrator& integrator, const RenderOptions& options,
+                   const Image& image) {
+  const bool mapped = integrator.radiance && !keeps_radiance(file);
+  write_image(file, mapped ? map_tones(image, options.exposure) : image);
+}
+
+std::optional<float> parse_exposure(const std::string& text) {
+  double stops = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
+  if (error != std::errc{} || end != text.data() + text.size() || !(std::fabs(stops) <= 50)) {
+    throw UsageError(fmt::format("takes a number of stops from -50 to 50, not '{}'", text));
+  }
+  return static_cast<float>(stops);
+}
+
 int run_render(const RenderOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
-  find_integrator(options.integrator);
+  const Integrator& integrator = find_integrator(options.integrator);
   std::vector<Shot> shots = plan_shots(options);
   for (const Shot& shot : shots) check_can_write_image(shot.file, options.force);
   const Scene scene = load_scene(options.scene);
@@ -131,7 +166,7 @@ int run_render(const RenderOptions& options) {
   for (const Shot& shot : shots) {
     check_interrupt();
     const Rendering rendering = render_timed(scene, structure, options, shot.camera);
-    write_image(shot.file, rendering.result.image);
+    write_picture(shot.file, integrator, options, rendering.result.image);
     if (options.common.json) {
       documents.push_back(rendering_json(scene, structure, options, shot, rendering));
     } else {
@@ -157,6 +192,10 @@ void add_render(CommandSet& commands) {
                "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
   command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
+  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrator path)");
+  command.parsed(
+      "--exposure", [options](const std::string& text) { options->exposure = parse_exposure(text); }, "STOPS",
+      "Brightness of a .png (integrator path); 0 shows radiance as it is, 1 twice as bright", "by the picture");
   command.text("-o,--output", options->output, "FILE", "Picture to write, .png or .exr");
   command.flag("--force", options->force, "Replace the picture if there is one");
   add_common(command, options->common);

@@ -17,6 +17,7 @@ struct CommonOptions {
 struct ViewOptions {
   std::string camera;  ///< name; empty: the scene's first
   std::uint32_t width = 512, height = 512;
+  bool sized = false;  ///< whether the size was asked for
 };
 
 // What several commands declare alike.

@@ -59,6 +59,7 @@ CameraRays::CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t 
   const double half_side = half_angle.sine / half_angle.cosine / std::min(width, height);
   const Vec3 right = right_of(forward_, camera.up);
   right_ = right * static_cast<float>(half_side * width);
+  if (camera.mirrored) right_ = -right_;
   up_ = cross(right, forward_) * static_cast<float>(half_side * height);
 }
 

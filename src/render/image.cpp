@@ -35,6 +35,12 @@ void write_bytes(const std::filesystem::path& file, std::span<const unsigned cha
   out.commit();
 }
 
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
 /// Transfer function of IEC 61966-2-1, to 8 bits.
 unsigned char srgb(float linear) {
   if (!(linear > 0)) return 0;
@@ -99,11 +105,11 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
   write_bytes(file, {memory, size});
 }
 
+bool keeps_radiance(const std::filesystem::path& file) { return lower_extension(file) == ".exr"; }
+
 void write_image(const std::filesystem::path& file, const Image& image) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".png") return write_png(file, image);
-  if (extension == ".exr") return write_exr(file, image);
+  if (keeps_radiance(file)) return write_exr(file, image);
+  if (lower_extension(file) == ".png") return write_png(file, image);
   throw UsageError(
       fmt::format("'{}' does not end in .png or .exr, the image formats that can be written", file.string()));
 }

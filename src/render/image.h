@@ -25,6 +25,8 @@ struct Image {
 void write_png(const std::filesystem::path& file, const Image& image);
 /// 32-bit float scan lines, as they are. Otherwise like write_png.
 void write_exr(const std::filesystem::path& file, const Image& image);
+/// Whether a file of that name holds linear values of any size (.exr) or 8-bit ones (.png).
+bool keeps_radiance(const std::filesystem::path& file);
 /// By extension, .png or .exr in any case; throws UsageError on another one.
 void write_image(const std::filesystem::path& file, const Image& image);
 

@@ -7,5 +7,6 @@ Integrator eyelight_integrator();
 Integrator ao_integrator();
 Integrator normals_integrator();
 Integrator heatmap_integrator();
+Integrator path_integrator();
 
 }  // namespace boxwood
