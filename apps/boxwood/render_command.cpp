@@ -32,6 +32,7 @@ struct RenderOptions {
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
   std::uint32_t depth = 8;
+  std::string lights = "scene", secondary = "queued";
   std::optional<float> exposure;  ///< stops; none: by the picture's own brightness
   std::string output = "out.png";
   std::string cameras;  ///< file; one picture for each of its cameras
@@ -84,6 +85,8 @@ Rendering render_timed(const Scene& scene, const Structure& structure, const Ren
   settings.height = rendering.view.height;
   settings.spp = options.spp;
   settings.depth = options.depth;
+  settings.lights = options.lights;
+  settings.secondary = options.secondary == "immediate" ? SecondaryRays::immediate : SecondaryRays::queued;
   settings.integrator = options.integrator;
   ProgressBar bar(stop_requested());
   const double begin = now(Clock::wall);
@@ -113,6 +116,8 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"height", rendering.view.height},
           {"spp", options.spp},
           {"depth", options.depth},
+          {"lights", options.lights},
+          {"secondary", options.secondary},
           {"build_ms", measured_once(structure.report().build_ms)},
           {"render_ms", measured_once(rendering.seconds * 1000)},
           {"rays", to_json(rendering.result.ray_kinds)},
@@ -192,7 +197,12 @@ void add_render(CommandSet& commands) {
                "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
   command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
-  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrator path)");
+  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrators path and whitted)");
+  std::vector<std::string> lights;
+  for (const LightSetting& setting : light_settings()) lights.emplace_back(setting.name);
+  command.choice("--lights", options->lights, lights, "NAME", "What lights the scene (integrator whitted)");
+  command.choice("--secondary", options->secondary, {"queued", "immediate"}, "WHEN",
+                 "Trace reflected, refracted and shadow rays all together or at once (integrator whitted)");
   command.parsed(
       "--exposure", [options](const std::string& text) { options->exposure = parse_exposure(text); }, "STOPS",
       "Brightness of a .png (integrator path); 0 shows radiance as it is, 1 twice as bright", "by the picture");
