@@ -9,6 +9,7 @@
 #include "command.h"
 #include "console.h"
 #include "exit_code.h"
+#include "expected_view.h"
 #include "measure/clock.h"
 #include "options/options.h"
 #include "render/integrator.h"
@@ -31,7 +32,9 @@ struct RenderOptions {
   std::string recipe = "default";
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
+  std::uint32_t heatmap_scale = 0;
   std::uint32_t depth = 8;
+  std::string lights = "scene", secondary = "queued";
   std::optional<float> exposure;  ///< stops; none: by the picture's own brightness
   std::string output = "out.png";
   std::string cameras;  ///< file; one picture for each of its cameras
@@ -84,7 +87,10 @@ Rendering render_timed(const Scene& scene, const Structure& structure, const Ren
   settings.height = rendering.view.height;
   settings.spp = options.spp;
   settings.depth = options.depth;
+  settings.lights = options.lights;
+  settings.secondary = options.secondary == "immediate" ? SecondaryRays::immediate : SecondaryRays::queued;
   settings.integrator = options.integrator;
+  settings.heatmap_scale = static_cast<float>(options.heatmap_scale);
   ProgressBar bar(stop_requested());
   const double begin = now(Clock::wall);
   rendering.result = run_in_arena(options.common.threads, [&] { return render(scene, structure, settings, &bar); });
@@ -113,6 +119,8 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"height", rendering.view.height},
           {"spp", options.spp},
           {"depth", options.depth},
+          {"lights", options.lights},
+          {"secondary", options.secondary},
           {"build_ms", measured_once(structure.report().build_ms)},
           {"render_ms", measured_once(rendering.seconds * 1000)},
           {"rays", to_json(rendering.result.ray_kinds)},
@@ -157,7 +165,10 @@ int run_render(const RenderOptions& options) {
   if (options.cameras.empty()) shots.front().camera = find_camera(scene, options.view);
   for (const std::string& note : scene_notes(scene)) complain(note);
   check_interrupt();
-  const Structure structure = build(scene, recipe, {.threads = options.common.threads});
+  // Along a path the structure is built once, for the first picture.
+  std::optional<ExpectedUse> use;
+  if (needs_use(recipe)) use = expected_view(scene, shots.front().camera, options.view, options.common.threads);
+  const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
   Json documents = Json::array();
   if (!options.common.json) {
     print(fmt::format("{}: {}, built in {} by {}\n", scene.name, counted(scene.placed_triangles(), "triangle"),
@@ -192,7 +203,14 @@ void add_render(CommandSet& commands) {
                "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
   command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
-  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrator path)");
+  command.integer("--heatmap-scale", options->heatmap_scale, 0, 1u << 20,
+                  "Tests per ray at full brightness of a heat map, so that several compare; 0: the most of any pixel");
+  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrators path and whitted)");
+  std::vector<std::string> lights;
+  for (const LightSetting& setting : light_settings()) lights.emplace_back(setting.name);
+  command.choice("--lights", options->lights, lights, "NAME", "What lights the scene (integrator whitted)");
+  command.choice("--secondary", options->secondary, {"queued", "immediate"}, "WHEN",
+                 "Trace reflected, refracted and shadow rays all together or at once (integrator whitted)");
   command.parsed(
       "--exposure", [options](const std::string& text) { options->exposure = parse_exposure(text); }, "STOPS",
       "Brightness of a .png (integrator path); 0 shows radiance as it is, 1 twice as bright", "by the picture");

@@ -57,7 +57,8 @@ std::vector<Hit> trace(const Structure& structure, std::span<const Ray> rays) {
 std::vector<Ray> primary_rays(const RaySetContext& context) {
   const RaySetSettings& settings = context.settings;
   const CameraRays camera(settings.camera, settings.width, settings.height, 1, settings.seed);
-  const std::vector<std::uint32_t> pixels = pixels_in_tiles(settings.width, settings.height);
+  const std::vector<std::uint32_t> pixels =
+      pixels_in_blocks(settings.width, settings.height, settings.block, settings.seed);
   std::vector<Ray> rays(pixels.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), chunk), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) rays[i] = camera.ray(pixels[i], 0);

@@ -52,14 +52,18 @@ unsigned char srgb(float linear) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-  check_size(file, image);
+std::vector<unsigned char> srgb_bytes(const Image& image) {
   std::vector<unsigned char> rgb;
   rgb.reserve(image.pixels.size() * 3);
   for (const Vec3& pixel : image.pixels) {
     for (const float channel : {pixel.x, pixel.y, pixel.z}) rgb.push_back(srgb(channel));
   }
-  write_bytes(file, encode_png(rgb, image.width, image.height));
+  return rgb;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  check_size(file, image);
+  write_bytes(file, encode_png(srgb_bytes(image), image.width, image.height));
 }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {

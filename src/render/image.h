@@ -20,6 +20,8 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
+/// 8-bit sRGB, three bytes a pixel, values clamped to [0, 1], NaN black.
+std::vector<unsigned char> srgb_bytes(const Image& image);
 /// 8-bit sRGB, values clamped to [0, 1], NaN black. The same image gives the same bytes. The file appears only once it
 /// is complete. Throws Error naming the file and the cause.
 void write_png(const std::filesystem::path& file, const Image& image);

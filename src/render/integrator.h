@@ -6,6 +6,7 @@
 #include "render/render.h"
 #include "render/surface.h"
 #include "render/tracer.h"
+#include "render/whitted/light_rig.h"
 
 namespace boxwood {
 
@@ -14,6 +15,7 @@ struct ShadingContext {
   const Scene& scene;
   const Surfaces& surfaces;
   const Lights& lights;
+  const LightRig& rig;  ///< of `settings.lights`
   const RenderSettings& settings;
 };
 

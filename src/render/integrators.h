@@ -8,5 +8,6 @@ Integrator ao_integrator();
 Integrator normals_integrator();
 Integrator heatmap_integrator();
 Integrator path_integrator();
+Integrator whitted_integrator();
 
 }  // namespace boxwood

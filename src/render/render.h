@@ -11,14 +11,19 @@
 
 namespace boxwood {
 
+/// When rays that follow from others are traced: all of one kind together, or as soon as 16 camera rays have hit.
+enum class SecondaryRays { queued, immediate };
+
 struct RenderSettings {
   Camera camera;
-  std::uint32_t width = 512, height = 512;  ///< pixels, at least 1
-  std::uint32_t spp = 1;                    ///< samples per pixel, at least 1; 1 goes through the pixel centre
-  std::string integrator = "eyelight";      ///< a name of integrators()
-  std::uint32_t depth = 8;                  ///< path: most bounces of a path; 0 shows what gives light only
-  float ao_radius = 0;                      ///< world units; 0: a tenth of the scene's diagonal
-  float heatmap_scale = 0;                  ///< tests per ray shown at full brightness; 0: the most that any pixel has
+  std::uint32_t width = 512, height = 512;          ///< pixels, at least 1
+  std::uint32_t spp = 1;                            ///< samples per pixel, at least 1; 1 goes through the pixel centre
+  std::string integrator = "eyelight";              ///< a name of integrators()
+  std::uint32_t depth = 8;                          ///< path, whitted: most bounces of a path; 0: none
+  std::string lights = "scene";                     ///< whitted: a name of light_settings()
+  SecondaryRays secondary = SecondaryRays::queued;  ///< whitted; the picture is the same
+  float ao_radius = 0;                              ///< world units; 0: a tenth of the scene's diagonal
+  float heatmap_scale = 0;  ///< tests per ray shown at full brightness; 0: the most that any pixel has
   std::uint64_t seed = 1;
 };
 

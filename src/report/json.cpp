@@ -1,5 +1,6 @@
 #include "report/json.h"
 
+#include "cost/registry.h"
 #include "report/catalog_text.h"
 
 namespace boxwood {
@@ -142,7 +143,14 @@ Json to_json(std::span<const Stage> stages, std::span<const Preset> presets) {
   for (const Preset& preset : presets) {
     preset_list.push_back({{"name", preset.name}, {"recipe", preset.text}, {"summary", preset.summary}});
   }
-  return {{"stages", stage_list}, {"presets", preset_list}};
+  Json cost_list = Json::array();
+  for (const CostModelEntry& model : cost_models()) {
+    cost_list.push_back({{"name", model.name},
+                         {"summary", model.summary},
+                         {"source", model.source},
+                         {"options", options_json(model.options, model.defaults)}});
+  }
+  return {{"stages", stage_list}, {"cost_models", cost_list}, {"presets", preset_list}};
 }
 
 Json to_json(std::span<const Generator> generators, std::span<const SceneSource> sources) {
