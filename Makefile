@@ -54,10 +54,13 @@ format: ## Rewrite all sources in the house format
 docs: build ## Regenerate docs/recipes.md from the registry
 	@$(RELEASE)/boxwood recipes --markdown > docs/recipes.md
 
+pictures: build ## Render the pictures of the README anew
+	@scripts/pictures.sh $(RELEASE)/boxwood docs/images
+
 install: build ## Install the library, its headers and the CMake package
 	@cmake --install $(RELEASE)
 
 clean: ## Remove everything that was built
 	rm -rf build out
 
-.PHONY: help deps build demo test test-release test-sanitized test-threads bench lint check-format format docs install clean
+.PHONY: help deps build demo test test-release test-sanitized test-threads bench lint check-format format docs pictures install clean

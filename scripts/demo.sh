@@ -6,7 +6,7 @@ boxwood=$1
 out=$2
 bunny=/usr/share/glmark2/models/bunny.obj
 mkdir -p "$out"
-"$boxwood" compare "$bunny" "generate:stadium" --size 512x512 --repeat 5 --images "$out" --force | tee "$out/compare.txt"
+"$boxwood" compare "$bunny" "generate:stadium" --size 512x512 --repeat 7 --images "$out" --force | tee "$out/compare.txt"
 echo
 "$boxwood" inspect "$bunny" -a default | tee "$out/inspect.txt"
 echo

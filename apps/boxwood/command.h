@@ -62,6 +62,7 @@ void add_render(CommandSet& commands);
 void add_compare(CommandSet& commands);
 void add_inspect(CommandSet& commands);
 void add_verify(CommandSet& commands);
+void add_cameras(CommandSet& commands);
 void add_bench(CommandSet& commands);
 void add_study(CommandSet& commands);
 void add_results(CommandSet& commands);

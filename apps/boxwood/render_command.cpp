@@ -14,6 +14,7 @@
 #include "report/number_text.h"
 #include "report/progress_bar.h"
 #include "report/table.h"
+#include "scene/cameras.h"
 #include "workspace.h"
 
 namespace boxwood::cli {
@@ -27,6 +28,7 @@ struct RenderOptions {
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
   std::string output = "out.png";
+  std::string cameras;  ///< file; one picture for each of its cameras
   bool force = false;
 };
 
@@ -35,9 +37,32 @@ struct Rendering {
   double seconds = 0;
 };
 
-Rendering render_timed(const Scene& scene, const Structure& structure, const RenderOptions& options) {
+/// A camera and where its picture goes.
+struct Shot {
+  Camera camera;
+  std::filesystem::path file;
+};
+
+/// One picture, or one for each camera of a file, called after it.
+std::vector<Shot> plan_shots(const RenderOptions& options) {
+  const std::filesystem::path output = options.output;
+  std::vector<Shot> shots;
+  if (options.cameras.empty()) {
+    shots.emplace_back().file = output;
+    return shots;
+  }
+  for (Camera& camera : read_cameras(options.cameras)) {
+    const std::string name = fmt::format("{}-{}{}", output.stem().string(), camera.name, output.extension().string());
+    shots.push_back({std::move(camera), output.parent_path() / name});
+  }
+  if (shots.empty()) throw UsageError(fmt::format("{} has no cameras; nothing would be rendered", options.cameras));
+  return shots;
+}
+
+Rendering render_timed(const Scene& scene, const Structure& structure, const RenderOptions& options,
+                       const Camera& camera) {
   RenderSettings settings;
-  settings.camera = find_camera(scene, options.view);
+  settings.camera = camera;
   settings.width = options.view.width;
   settings.height = options.view.height;
   settings.spp = options.spp;
@@ -60,9 +85,10 @@ std::string rays_table(const RenderResult& result) {
   return table.text();
 }
 
-Json rendering_json(const Scene& scene, const Structure& structure, const RenderOptions& options,
+Json rendering_json(const Scene& scene, const Structure& structure, const RenderOptions& options, const Shot& shot,
                     const Rendering& rendering) {
   return {{"scene", scene.name},
+          {"camera", shot.camera.name},
           {"triangles", scene.placed_triangles()},
           {"recipe", structure.recipe().text()},
           {"integrator", options.integrator},
@@ -73,33 +99,46 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"render_ms", measured_once(rendering.seconds * 1000)},
           {"rays", to_json(rendering.result.ray_kinds)},
           {"heatmap_scale", rendering.result.heatmap_scale},
-          {"file", options.output},
+          {"file", shot.file.string()},
           {"notes", to_json(scene.notes)}};
+}
+
+std::string rendering_text(const Shot& shot, const Rendering& rendering) {
+  std::string text = fmt::format("\n{}\nRendered in {}; the picture is {}\n", rays_table(rendering.result),
+                                 duration_text(rendering.seconds), shot.file.string());
+  if (rendering.result.heatmap_scale > 0) {
+    text += fmt::format("Red: primitive tests per ray, green: inner nodes visited; full brightness is {}\n",
+                        significant(rendering.result.heatmap_scale));
+  }
+  return text;
 }
 
 int run_render(const RenderOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
   find_integrator(options.integrator);
-  check_can_write_image(options.output, options.force);
+  std::vector<Shot> shots = plan_shots(options);
+  for (const Shot& shot : shots) check_can_write_image(shot.file, options.force);
   const Scene scene = load_scene(options.scene);
-  find_camera(scene, options.view);
+  if (options.cameras.empty()) shots.front().camera = find_camera(scene, options.view);
   for (const std::string& note : scene_notes(scene)) complain(note);
   check_interrupt();
   const Structure structure = build(scene, recipe, {.threads = options.common.threads});
-  check_interrupt();
-  const Rendering rendering = render_timed(scene, structure, options);
-  write_image(options.output, rendering.result.image);
-  if (options.common.json) {
-    print_json(rendering_json(scene, structure, options, rendering));
-    return exit_done;
+  Json documents = Json::array();
+  if (!options.common.json) {
+    print(fmt::format("{}: {}, built in {} by {}\n", scene.name, counted(scene.placed_triangles(), "triangle"),
+                      duration_text(structure.report().build_ms / 1000), recipe.text()));
   }
-  print(fmt::format("{}: {}, built in {} by {}\n\n{}\nRendered in {}; the picture is {}\n", scene.name,
-                    counted(scene.placed_triangles(), "triangle"), duration_text(structure.report().build_ms / 1000),
-                    recipe.text(), rays_table(rendering.result), duration_text(rendering.seconds), options.output));
-  if (rendering.result.heatmap_scale > 0) {
-    print(fmt::format("Red: primitive tests per ray, green: inner nodes visited; full brightness is {}\n",
-                      significant(rendering.result.heatmap_scale)));
+  for (const Shot& shot : shots) {
+    check_interrupt();
+    const Rendering rendering = render_timed(scene, structure, options, shot.camera);
+    write_image(shot.file, rendering.result.image);
+    if (options.common.json) {
+      documents.push_back(rendering_json(scene, structure, options, shot, rendering));
+    } else {
+      print(rendering_text(shot, rendering));
+    }
   }
+  if (options.common.json) print_json(options.cameras.empty() ? documents.front() : documents);
   return exit_done;
 }
 
@@ -114,6 +153,9 @@ void add_render(CommandSet& commands) {
   for (const Integrator& integrator : integrators()) names.emplace_back(integrator.name);
   command.text("--integrator", options->integrator, "NAME", "One of " + option_text::join(names, ", "));
   add_view(command, options->view);
+  command.text("--cameras", options->cameras, "FILE",
+               "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
+  command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
   command.text("-o,--output", options->output, "FILE", "Picture to write, .png or .exr");
   command.flag("--force", options->force, "Replace the picture if there is one");

@@ -30,6 +30,11 @@ struct Kernels {
   Any any = nullptr, any_counted = nullptr;
   void (*closest_batch)(const LevelType&, std::span<const Ray>, std::span<Hit>) = nullptr;
   void (*any_batch)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>) = nullptr;
+  /// Where a batch does not cost what its rays alone do; null elsewhere.
+  void (*closest_batch_counted)(const LevelType&, std::span<const Ray>, std::span<Hit>,
+                                std::span<RayCounters>) = nullptr;
+  void (*any_batch_counted)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>,
+                            std::span<RayCounters>) = nullptr;
 };
 
 /// A layout that is nothing but a level and its kernels.
@@ -53,6 +58,7 @@ class KernelLayout final : public Layout {
   }
   void closest_hits_counted(std::span<const Ray> rays, std::span<Hit> hits,
                             std::span<RayCounters> counters) const override {
+    if (kernels_.closest_batch_counted) return kernels_.closest_batch_counted(level_, rays, hits, counters);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       hits[i] = {};
       counters[i] = {};
@@ -61,6 +67,7 @@ class KernelLayout final : public Layout {
   }
   void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                         std::span<RayCounters> counters) const override {
+    if (kernels_.any_batch_counted) return kernels_.any_batch_counted(level_, rays, blocked, counters);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       counters[i] = {};
       blocked[i] = kernels_.any_counted(level_, rays[i], &counters[i]) ? 1 : 0;

@@ -5,6 +5,10 @@ namespace boxwood {
 
 Stage binary_stage();
 Stage wide_stage();
+Stage slab_stage();
+Stage binary_split_stage();
+Stage wide_slab_stage();
+Stage bih_stage();
 Stage trace_stage();
 #ifdef BOXWOOD_EMBREE
 Stage embree_stage();

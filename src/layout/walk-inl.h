@@ -7,6 +7,7 @@
 //   children(link)                              how many there are
 //   test(slot, link, child, from, limit, t)     whether the ray enters that child within [from, limit], and at which t
 //   slot_of(slot, link, child)
+// A tester whose nodes are parts of boxes brings other tests and has another walk: see segment_walk-inl.h.
 #if defined(BOXWOOD_LAYOUT_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_WALK_INL_H
 #undef BOXWOOD_LAYOUT_WALK_INL_H
@@ -19,6 +20,7 @@
 #include "layout/encode.h"
 #include "layout/kernel_layout.h"
 #include "layout/leaf_visit-inl.h"
+#include "layout/segment_walk-inl.h"
 #include "layout/trace_options.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,17 +96,21 @@ struct Walk {
 template <class Tester, ChildOrder order, TraversalMode mode, class Nodes, class Leaves, class Visit>
 HWY_INLINE bool walk(const Level<Nodes, Leaves>& level, const PreparedRay& ray, Visit& visit) {
   if (level.nodes.empty()) return false;
-  const Tester tester(level.nodes, ray);
   // Without culling nothing is skipped for its distance: not even what lies behind the ray's origin (spec 000, 2.12).
   const float from = level.cull ? ray.t_near : -std::numeric_limits<float>::infinity();
-  float t_root;
-  const bool met = hit_box(tester.root_box(), ray, from, visit.cutoff, t_root);
-  visit.counting.test_root(met);
-  if (!met) return false;
-  Pending stack[stack_entries];
-  Walk<Tester, Leaves, Visit, order> walk{tester, ray, level.leaves, visit, from};
-  if constexpr (mode == TraversalMode::iterative) return walk.iterate(tester.root_slot(), tester.root_link(), stack);
-  return walk.recurse(tester.root_slot(), tester.root_link(), stack);
+  if constexpr (requires { Tester::segments; }) {
+    return walk_segments<Tester, order, mode>(level, ray, from, visit);
+  } else {
+    const Tester tester(level.nodes, ray);
+    float t_root;
+    const bool met = hit_box(tester.root_box(), ray, from, visit.cutoff, t_root);
+    visit.counting.test_root(met);
+    if (!met) return false;
+    Pending stack[stack_entries];
+    Walk<Tester, Leaves, Visit, order> walk{tester, ray, level.leaves, visit, from};
+    if constexpr (mode == TraversalMode::iterative) return walk.iterate(tester.root_slot(), tester.root_link(), stack);
+    return walk.recurse(tester.root_slot(), tester.root_link(), stack);
+  }
 }
 
 /// The kernels for one way of walking.

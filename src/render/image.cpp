@@ -46,15 +46,17 @@ unsigned char srgb(float linear) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+std::vector<unsigned char> encode_png(const Image& image) {
   check_size(file, image);
   std::vector<unsigned char> rgb;
   rgb.reserve(image.pixels.size() * 3);
   for (const Vec3& pixel : image.pixels) {
     for (const float channel : {pixel.x, pixel.y, pixel.z}) rgb.push_back(srgb(channel));
   }
-  write_bytes(file, encode_png(rgb, image.width, image.height));
+  return encode_png(rgb, image.width, image.height);
 }
+
+void write_png(const std::filesystem::path& file, const Image& image) { write_bytes(file, encode_png(image)); }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {
   check_size(file, image);

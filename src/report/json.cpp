@@ -80,6 +80,15 @@ Json to_json(const ImportNotes& notes) {
           {"messages", notes.messages}};
 }
 
+Json to_json(const Camera& camera) {
+  const auto list = [](const Vec3& v) { return Json{v.x, v.y, v.z}; };
+  return {{"name", camera.name},
+          {"eye", list(camera.eye)},
+          {"direction", list(camera.direction)},
+          {"up", list(camera.up)},
+          {"fov", camera.fov}};
+}
+
 double mrays_per_s(const RayKindReport& report) {
   return report.trace_seconds > 0 ? static_cast<double>(report.rays) / report.trace_seconds * 1e-6 : 0;
 }

@@ -26,6 +26,8 @@ Json measured_once(double value);
 Json to_json(const Comparison& comparison);
 Json to_json(const TreeStatistics& statistics);
 Json to_json(const ImportNotes& notes);
+/// The entry of a camera sidecar.
+Json to_json(const Camera& camera);
 /// {KIND: {"rays", "hits", "mrays_per_s"}}; the rate is that of one thread.
 Json to_json(std::span<const RayKindReport> ray_kinds);
 Json to_json(std::span<const Stage> stages, std::span<const Preset> presets);

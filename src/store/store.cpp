@@ -40,6 +40,13 @@ std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
+/// 0 for a new file. The statement must be gone before anything is written: it holds on to what it has seen.
+std::int64_t version_of(const Connection& connection) {
+  Statement version(connection, "PRAGMA user_version");
+  version.step();
+  return version.integer();
+}
+
 Measurement read_measurement(Statement& row) {
   Measurement m;
   m.environment = row.integer();
@@ -88,9 +95,7 @@ Store::Store(const std::filesystem::path& file, Mode mode) {
     // before a power cut, and is some hundred times faster.
     connection.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON");
   }
-  Statement version(connection, "PRAGMA user_version");
-  version.step();
-  const std::int64_t found = version.integer();
+  const std::int64_t found = version_of(connection);
   if (found > format_version || (reading && found == 0)) {
     throw Error(fmt::format("{} is not a store that this version of boxwood can read", file.string()));
   }

@@ -57,7 +57,8 @@ TEST_P(Command, HasHelp) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Command,
-                         ::testing::Values("render", "compare", "inspect", "verify", "bench", "recipes", "scenes"));
+                         ::testing::Values("render", "compare", "inspect", "verify", "cameras", "bench", "recipes",
+                                           "scenes"));
 
 TEST(Boxwood, WithoutArguments_PrintsHelp) {
   const Outcome outcome = run_boxwood({});
