@@ -47,7 +47,6 @@ unsigned char srgb(float linear) {
 }  // namespace
 
 std::vector<unsigned char> encode_png(const Image& image) {
-  check_size(file, image);
   std::vector<unsigned char> rgb;
   rgb.reserve(image.pixels.size() * 3);
   for (const Vec3& pixel : image.pixels) {
@@ -56,7 +55,10 @@ std::vector<unsigned char> encode_png(const Image& image) {
   return encode_png(rgb, image.width, image.height);
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) { write_bytes(file, encode_png(image)); }
+void write_png(const std::filesystem::path& file, const Image& image) {
+  check_size(file, image);
+  write_bytes(file, encode_png(image));
+}
 
 void write_exr(const std::filesystem::path& file, const Image& image) {
   check_size(file, image);
