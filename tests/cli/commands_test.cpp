@@ -243,5 +243,22 @@ TEST(Bench, Quick_MeasuresBuildsMemoryAndTracing) {
   EXPECT_GE(document["trace"][0].at("rows").size(), 3u);
 }
 
+TEST(Bench, AgainstEmbree_GivesTheRatioOfEveryColumn) {
+  const json document = run_for_json({"bench", "--quick", "--peer", "embree"});
+  if (document.at("peer").is_null()) GTEST_SKIP() << "compiled without Embree";
+  for (const json& bench : {document, document.at("all_threads")}) {
+    for (const char* column :
+         {"closest.primary.batch", "closest.diffuse.batch", "closest.random.batch", "any.shadow.batch", "any.ao.batch",
+          "closest.primary.single", "closest.diffuse.single", "closest.random.single", "any.shadow.single",
+          "any.ao.single", "build.fast", "build.default", "build.best"}) {
+      expect_estimate(bench.at("geometric_means").at(column), 3);
+    }
+    for (const json& scene : bench.at("scenes")) {
+      EXPECT_GT(scene.at("bytes_per_triangle").at("default").at("median").get<double>(), 0);
+      EXPECT_LE(scene.at("columns").at("closest.diffuse.batch").at("mismatches").get<int>(), 10);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace boxwood::testing
