@@ -57,6 +57,25 @@ double bytes_per_triangle(const BuildReport& report) {
   return report.primitives == 0 ? 0 : static_cast<double>(report.bytes) / static_cast<double>(report.primitives);
 }
 
+/// `chunk_fill` as words.
+std::string fact_name(const LayoutFact& fact) {
+  std::string name = fact.name;
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string fact_figure(const LayoutFact& fact) {
+  if (fact.per > 0) return significant(fact.figure());
+  const auto value = static_cast<std::uint64_t>(fact.value);
+  return fact.name.ends_with("_bytes") ? bytes_text(value) : grouped(value);
+}
+
+Json facts_json(const BuildReport& report) {
+  Json out = Json::object();
+  for (const LayoutFact& fact : report.facts) out[fact.name] = fact.figure();
+  return out;
+}
+
 std::string structure_table(const BuildReport& report) {
   Table table({{"structure", Align::left}, {""}});
   table.add({"build time", duration_text(report.build_ms / 1000)});
@@ -64,6 +83,7 @@ std::string structure_table(const BuildReport& report) {
   table.add({"triangles left out", grouped(report.left_out)});
   table.add({"memory of the layout", bytes_text(report.bytes)});
   table.add({"bytes per triangle", significant(bytes_per_triangle(report))});
+  for (const LayoutFact& fact : report.facts) table.add({fact_name(fact), fact_figure(fact)});
   return table.text();
 }
 
@@ -101,6 +121,7 @@ Json inspection_json(const Scene& scene, const Structure& structure, const std::
           {"sah_cost", report.sah_cost},
           {"nodes", report.nodes},
           {"left_out", report.left_out},
+          {"layout", facts_json(report)},
           {"trees", std::move(list)},
           {"notes", to_json(scene.notes)}};
 }

@@ -25,6 +25,7 @@ void parse_size(const std::string& text, ViewOptions& view) {
   } catch (const UsageError&) {
     throw wrong();
   }
+  view.sized = true;
 }
 
 }  // namespace

@@ -39,9 +39,9 @@ std::span<const std::string_view> ray_kinds();
 
 /// Makes the sets named in `kinds` (each of ray_kinds()). Secondary rays start from hits found with `structure`; since
 /// every structure finds the same hits, the sets do not depend on which is used. They come in the order of ray_kinds(),
-/// each once; one is empty when its rays have nowhere to start. Shadow rays go to a light of the scene picked at
-/// random, or, in a scene without, to a place above and behind the camera. Runs in the caller's TBB arena. Throws
-/// UsageError on an unknown kind or a bad setting.
+/// each once; one is empty when its rays have nowhere to start. Shadow rays go to a light of the scene, a
+/// surface that gives light included, picked at random, or, in a scene without, to a place above and behind the camera.
+/// Runs in the caller's TBB arena. Throws UsageError on an unknown kind or a bad setting.
 std::vector<RaySet> make_ray_sets(const Scene& scene, const Structure& structure, const RaySetSettings& settings,
                                   std::span<const std::string> kinds);
 

@@ -4,8 +4,10 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "boxwood/counters.h"
+#include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
 #include "boxwood/recipe.h"
 #include "boxwood/scene.h"
@@ -26,12 +28,13 @@ bool needs_use(const Recipe& recipe);
 
 /// What a build cost and what it made.
 struct BuildReport {
-  double build_ms = 0;           ///< wall time from triangles to a structure that can be traced
-  std::size_t bytes = 0;         ///< held by the structure, beyond the caller's mesh
-  double sah_cost = 0;           ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
-  std::uint64_t nodes = 0;       ///< inner nodes and leaves before layout
-  std::uint64_t primitives = 0;  ///< usable unique triangles
-  std::uint64_t left_out = 0;    ///< triangles left out as degenerate or not finite
+  double build_ms = 0;            ///< wall time from triangles to a structure that can be traced
+  std::size_t bytes = 0;          ///< held by the structure, beyond the caller's mesh
+  double sah_cost = 0;            ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
+  std::uint64_t nodes = 0;        ///< inner nodes and leaves before layout
+  std::uint64_t primitives = 0;   ///< usable unique triangles
+  std::uint64_t left_out = 0;     ///< triangles left out as degenerate or not finite
+  std::vector<LayoutFact> facts;  ///< what the layout tells of itself, over all levels; see docs/octrees.md
 };
 
 /// An immutable acceleration structure. Copies share it. All queries are const, thread safe and allocation free.

@@ -39,6 +39,7 @@ class RefinementFunction {
   RefinementFunction(std::function<Tree(const std::any& options, Tree tree, const RefineContext&)> function)
       : function_(std::move(function)) {}
   Tree operator()(const std::any& options, Tree tree, const RefineContext& context = {}) const {
+    tree.cells = {};  // of the nodes as they were
     return function_(options, std::move(tree), context);
   }
 
@@ -69,6 +70,8 @@ struct Stage {
   std::function<std::uint32_t(const std::any& options)> arity;
   /// Whether the stage must know which rays will be traced. Not set: it need not.
   std::function<bool(const std::any& options)> needs_use;
+  /// Of a builder: its trees tell the cells of an octree (Tree::cells). Of a layout: it encodes those.
+  bool cells = false;
 };
 
 /// A stage with the options a recipe gave it.

@@ -32,7 +32,7 @@ std::vector<Ray> successors(const Surfaces& surfaces, std::span<const Ray> rays,
 
 /// Where a scene without lights is lit from: a tenth of its diagonal above and behind the camera, or, where something
 /// is in the way (a ceiling, a wall), most of the way to it.
-PointLight default_light(const RaySetContext& context) {
+Light default_light(const RaySetContext& context) {
   const Camera& camera = context.settings.camera;
   const float distance = 0.1f * length(context.bounds.extent());
   Ray way;
@@ -67,14 +67,12 @@ std::vector<Ray> primary_rays(const RaySetContext& context) {
 }
 
 std::vector<Ray> shadow_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits) {
-  std::vector<PointLight> lights = context.scene.lights;
-  if (lights.empty()) lights.push_back(default_light(context));
-  const auto light_count = static_cast<std::uint32_t>(lights.size());
-  return successors(context.surfaces, rays, hits,
-                    [&](std::uint32_t number, const SurfacePoint& point, const Vec3& incoming) {
-                      Random random = sample_random(context.settings.seed, RandomUse::light, number);
-                      return shadow_ray(point, incoming, lights[random.below(light_count)].position);
-                    });
+  const Lights lights(context.scene, context.surfaces, default_light(context));
+  return successors(
+      context.surfaces, rays, hits, [&](std::uint32_t number, const SurfacePoint& point, const Vec3& incoming) {
+        Random random = sample_random(context.settings.seed, RandomUse::light, number);
+        return shadow_ray(point, incoming, lights.sample(point.position, facing(point.normal, incoming), random));
+      });
 }
 
 std::vector<Ray> ao_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits) {

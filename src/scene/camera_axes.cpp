@@ -55,6 +55,7 @@ CameraAxes::CameraAxes(const Camera& camera, std::uint32_t width, std::uint32_t 
   const double half_side = half_angle.sine / half_angle.cosine / std::min(width, height);
   const Vec3 across = right_of(forward, camera.up);
   right = across * static_cast<float>(half_side * width);
+  if (camera.mirrored) right = -right;
   up = cross(across, forward) * static_cast<float>(half_side * height);
 }
 

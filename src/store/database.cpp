@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "boxwood/error.h"
 
 namespace boxwood {
@@ -17,6 +20,16 @@ Connection::Connection(const std::filesystem::path& file, int flags, int patienc
 
 void Connection::execute(const char* sql) {
   if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail("used");
+}
+
+void Connection::execute_patiently(const char* sql, int patience_ms) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
+  for (;;) {
+    const int result = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);
+    if (result == SQLITE_OK) return;
+    if (result != SQLITE_BUSY || std::chrono::steady_clock::now() > deadline) fail("used");
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 void Connection::fail(std::string_view doing) const {

@@ -20,6 +20,8 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
 
   void execute(const char* sql);
+  /// For what SQLite refuses at once, without its own waiting, while another process is about it.
+  void execute_patiently(const char* sql, int patience_ms);
   sqlite3* handle() const { return handle_; }
   [[noreturn]] void fail(std::string_view doing) const;
 

@@ -62,6 +62,27 @@ Measurement read_measurement(Statement& row) {
   return m;
 }
 
+std::int64_t version_of(Connection& connection) {
+  Statement version(connection, "PRAGMA user_version");
+  version.step();
+  return version.integer();
+}
+
+/// Makes the tables of a new store. Several processes may be at it at once: one makes them, the others wait and see.
+void prepare(Connection& connection) {
+  // A committed transaction of a WAL survives the death of the process; NORMAL risks only those of the last moments
+  // before a power cut, and is some hundred times faster.
+  connection.execute_patiently("PRAGMA journal_mode = WAL", patience_ms);
+  connection.execute("PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON");
+  if (version_of(connection) != 0) return;
+  Transaction transaction(connection);
+  if (version_of(connection) == 0) {
+    connection.execute(schema);
+    connection.execute(fmt::format("PRAGMA user_version = {}", format_version).c_str());
+  }
+  transaction.commit();
+}
+
 }  // namespace
 
 std::string Subject::key() const {
@@ -83,22 +104,10 @@ Store::Store(const std::filesystem::path& file, Mode mode) {
   const int flags = reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   database_.reset(new Database{Connection(file, flags, patience_ms)});
   Connection& connection = database_->connection;
-  if (!reading) {
-    // A committed transaction of a WAL survives the death of the process; NORMAL risks only those of the last moments
-    // before a power cut, and is some hundred times faster.
-    connection.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON");
-  }
-  Statement version(connection, "PRAGMA user_version");
-  version.step();
-  const std::int64_t found = version.integer();
-  if (found > format_version || (reading && found == 0)) {
+  if (!reading) prepare(connection);
+  const std::int64_t found = version_of(connection);
+  if (found > format_version || found == 0) {
     throw Error(fmt::format("{} is not a store that this version of boxwood can read", file.string()));
-  }
-  if (!reading && found == 0) {
-    Transaction transaction(connection);
-    connection.execute(schema);
-    connection.execute(fmt::format("PRAGMA user_version = {}", format_version).c_str());
-    transaction.commit();
   }
 }
 

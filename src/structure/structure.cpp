@@ -26,6 +26,18 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+void add(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
+  for (const LayoutFact& fact : facts) {
+    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
+    if (sum == sums.end()) {
+      sums.push_back(fact);
+    } else {
+      sum->value += fact.value;
+      sum->per += fact.per;
+    }
+  }
+}
+
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
 std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
                                           BuildReport& report) {
@@ -38,6 +50,7 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   auto layout = pipeline.encode(std::move(tree), contents);
   report.build_ms += milliseconds_since(begin_layout);
   report.bytes += layout->bytes();
+  add(report.facts, layout->facts());
   return layout;
 }
 
@@ -129,7 +142,7 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
       layout = build_two_levels(scene, Pipeline(recipe), use, report);
     }
   });
-  return {std::move(layout), report, recipe};
+  return {std::move(layout), std::move(report), recipe};
 }
 
 Structure build(const Scene& scene, std::string_view recipe, const BuildOptions& options) {
@@ -137,7 +150,7 @@ Structure build(const Scene& scene, std::string_view recipe, const BuildOptions&
 }
 
 Structure::Structure(std::shared_ptr<const Layout> layout, BuildReport report, Recipe recipe)
-    : layout_(std::move(layout)), report_(report), recipe_(std::move(recipe)) {}
+    : layout_(std::move(layout)), report_(std::move(report)), recipe_(std::move(recipe)) {}
 
 Hit Structure::closest_hit(const Ray& ray) const { return layout_->closest_hit(ray); }
 

@@ -38,13 +38,19 @@ class Parser {
  private:
   NodePointer sum(int depth) {
     NodePointer left = product(depth);
-    for (char c = peek(); c == '+' || c == '-'; c = peek()) left = operation(take(), left, product(depth));
+    for (char c = peek(); c == '+' || c == '-'; c = peek()) {
+      take();
+      left = operation(c, std::move(left), product(depth));
+    }
     return left;
   }
 
   NodePointer product(int depth) {
     NodePointer left = factor(depth);
-    for (char c = peek(); c == '*' || c == '/'; c = peek()) left = operation(take(), left, factor(depth));
+    for (char c = peek(); c == '*' || c == '/'; c = peek()) {
+      take();
+      left = operation(c, std::move(left), factor(depth));
+    }
     return left;
   }
 

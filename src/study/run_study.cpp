@@ -17,6 +17,7 @@
 #include "structure/object_use.h"
 #include "structure/pipeline.h"
 #include "study/observations.h"
+#include "study/pictures.h"
 #include "study/scene_finder.h"
 
 namespace boxwood {
@@ -106,6 +107,7 @@ class Run {
 
   const ExpectedUse* use() const { return use_ ? &*use_ : nullptr; }
   void tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants);
+  void draw(const StudyScene& scene, const std::vector<Contestant>& contestants);
   void build_structures(const StudyScene& scene, std::vector<Contestant>& contestants);
   void measure_rays(const StudyScene& scene, const Camera& view, const RaySet& rays,
                     std::vector<Contestant>& contestants);
@@ -284,6 +286,18 @@ void Run::measure_rays(const StudyScene& scene, const Camera& view, const RaySet
   }
 }
 
+void Run::draw(const StudyScene& scene, const std::vector<Contestant>& contestants) {
+  std::vector<PicturedRecipe> pictured;
+  for (const RecipeSpec& recipe : study_.recipes) {
+    if (std::ranges::find(study_.pictures, recipe.label) == study_.pictures.end()) continue;
+    const auto found = std::ranges::find_if(
+        contestants, [&](const Contestant& contestant) { return contestant.recipe.text() == recipe.text; });
+    if (found != contestants.end()) pictured.push_back({recipe.label, &*found->structure});
+  }
+  announce("drawing " + scene.name);
+  keep_pictures(study_, scene, pictured, store_);
+}
+
 void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
   std::vector<Contestant> contestants;
   for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), {}, 0});
@@ -294,6 +308,7 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
   }
   tell_use(scene, contestants);
   build_structures(scene, contestants);
+  draw(scene, contestants);
   const bool with_rays =
       std::ranges::any_of(probes_, [](const Probe* probe) { return probe->scope == ProbeScope::rays; });
   for (const Camera& view : scene.views) {
@@ -308,7 +323,9 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
 
 }  // namespace
 
-std::string stored_name(const Study& study) { return study.quick ? study.name + " (quick)" : study.name; }
+std::string stored_name(const Study& study) {
+  return study.quick ? study.name + std::string(quick_suffix) : study.name;
+}
 
 std::string camera_json(const Camera& camera) {
   const auto list = [](const Vec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };
