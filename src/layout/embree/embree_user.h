@@ -15,6 +15,7 @@
 namespace boxwood {
 
 struct EmbreeOptions;
+struct Scene;
 
 /// The user data of a geometry.
 struct EmbreeUserMesh {
