@@ -123,7 +123,7 @@ Tree built(const Stage& stage, const std::string& text, const std::vector<Box>& 
 TEST(ExhaustiveBuilder, SmallSets_TheCheapestTree) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const std::vector<Box> boxes = random_triangles(12, 300 + seed);
-    const Tree tree = built(exhaustive_stage(), "exhaustive(leaf=4, traversal_cost=1.2)", boxes);
+    const Tree tree = built(exhaustive_stage(), "exhaustive(most=12, leaf=4, traversal_cost=1.2)", boxes);
     EXPECT_EQ(validate(tree, boxes), "");
     EXPECT_NEAR(sah_cost(tree, {1.2, 1}), best_cost(boxes, {1.2, 4}), 1e-5);
   }
