@@ -16,7 +16,6 @@
 namespace boxwood {
 
 struct EmbreeOptions;
-struct Scene;
 
 /// The user data of a geometry.
 struct EmbreeUserMesh {
