@@ -5,7 +5,9 @@ namespace boxwood {
 
 Probe build_probe();
 Probe size_probe();
+Probe layout_probe();
 Probe tree_probe();
+Probe quality_probe();
 Probe time_probe();
 Probe tests_probe();
 Probe answers_probe();
