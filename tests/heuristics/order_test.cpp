@@ -123,7 +123,7 @@ TEST(SrdhBuilder, RepresentativeRays_FewerTestsThanSurfaceArea) {
   const auto tests = [&](const std::string& recipe) {
     return primitive_tests(build(scene, recipe, {.use = &use}), use.rays[0].rays);
   };
-  EXPECT_LT(tests("srdh > binary"), tests("binned > binary"));
+  EXPECT_LT(tests("srdh(leaf=1) > binary"), tests("binned(leaf=1) > binary"));
 }
 
 TEST(SrdhBuilder, NoRays_AsValidAsAny) {
