@@ -9,7 +9,9 @@
 namespace boxwood::viewer {
 namespace {
 
-constexpr std::size_t most_boxes = 4000;
+constexpr std::size_t most_boxes = 1000;
+// Dear ImGui counts the vertices of a list in 16 bits. What is beyond is not drawn: boxes come the largest first.
+constexpr int most_vertices = 60000;
 
 /// From blue over green and yellow to red.
 ImU32 heat_color(float heat, float opacity) {
@@ -23,7 +25,7 @@ void draw_box(ImDrawList& list, const Projection& projection, const Pane& pane, 
               float thickness) {
   for (const auto& [a, b] : box_edges) {
     const auto line = projection.line(box_corner(box, a), box_corner(box, b));
-    if (!line) continue;
+    if (!line || list.VtxBuffer.Size > most_vertices) continue;
     list.AddLine({pane.x + line->a.x, pane.y + line->a.y}, {pane.x + line->b.x, pane.y + line->b.y}, color, thickness);
   }
 }

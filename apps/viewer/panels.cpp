@@ -59,7 +59,7 @@ void recipe_field(const char* label, std::string& recipe, const std::vector<std:
 }
 
 void figures(const Picture& picture) {
-  text(fmt::format("{:.1f} ms a frame, {:.2f} million rays/s per thread", picture.frame_ms, picture.mrays_per_s));
+  text(fmt::format("{:.1f} ms a frame, {:.2f} Mrays/s per thread", picture.frame_ms, picture.mrays_per_s));
   text(fmt::format("built in {:.1f} ms, {:.1f} bytes per triangle", picture.build.build_ms,
                    picture.build.primitives
                        ? static_cast<double>(picture.build.bytes) / static_cast<double>(picture.build.primitives)
@@ -72,7 +72,7 @@ void figures(const Picture& picture) {
 
 void draw_panel(App& app) {
   ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({360, 0}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({400, 460}, ImGuiCond_FirstUseEver);
   ImGui::Begin("Boxwood (h: help)");
   const Scene& scene = app.frames_[app.state_.frame];
   text(fmt::format("{}: {} triangles", scene.name, scene.placed_triangles()));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boxwood/structure.h"
 #include "render/camera_rays.h"
@@ -45,6 +46,8 @@ Scene in_glowing_cube(Scene inner, const Material& material) {
   Scene cube = test::transformed(test::cube(1), half_side, {});
   Scene scene = std::move(inner);
   Mesh& mesh = scene.meshes[0];
+  // Outward: what lies behind the triangles is the glass.
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   mesh.materials.assign(mesh.triangles.size(), 0);
   scene.materials = {material};
   for (int axis = 0; axis < 3; ++axis) {
