@@ -107,7 +107,7 @@ TEST(BestTree, ForcedLeaves_MayBeDearerThanGreedy) {
 }
 
 TEST(BestTree, SmallTriangles_ReachedInNumber) {
-  const std::vector<Box> boxes = small_boxes(40, 0.1f, 7);
+  const std::vector<Box> boxes = small_boxes(32, 0.1f, 7);
   const SmallSet set(boxes, {1.2, 4});
   BestTree best(set, Partitions::sorted);
   EXPECT_LE(best.cost(set.all()) / set.area_of(set.all()), sah_cost(greedy_tree(boxes), {1.2, 1}));

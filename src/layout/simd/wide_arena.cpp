@@ -10,7 +10,6 @@
 
 #include "boxwood/error.h"
 #include "math/large_memory.h"
-
 #include "tree/tree.h"
 
 namespace boxwood {
