@@ -30,14 +30,15 @@ inline Tree octree_of(const Mesh& mesh, const std::string& text) {
 }
 
 inline const std::vector<std::string>& octree_calls() {
-  static const std::vector<std::string> all = {"octree",
-                                               "octree(primitives=2, multiplication=8, depth=4, budget=10000)",
-                                               "octree(primitives=2, multiplication=3, depth=6)",
-                                               "octree(primitives=4, exact=off)",
-                                               "octree(decider=depth, depth=3, primitives=3)",
-                                               "octree(decider=cluster, depth=5, primitives=4)",
-                                               "octree(decider=sah, primitives=2)",
-                                               "octree(decider=sah, primitives=2, traversal_cost=0.5, depth=6)"};
+  static const std::vector<std::string> all = {
+      "octree",
+      "octree(primitives=2, multiplication=8, depth=4, budget=10000)",
+      "octree(primitives=2, multiplication=3, depth=5, budget=10000)",
+      "octree(primitives=4, exact=off)",
+      "octree(decider=depth, depth=3, primitives=3, budget=10000)",
+      "octree(decider=cluster, depth=4, primitives=4, budget=10000)",
+      "octree(decider=sah, primitives=2)",
+      "octree(decider=sah, primitives=2, traversal_cost=0.5, depth=5, budget=10000)"};
   return all;
 }
 
