@@ -12,6 +12,7 @@
 #include "report/table.h"
 #include "report/tree_text.h"
 #include "structure/pipeline.h"
+#include "tree/split_cost.h"
 #include "tree/statistics.h"
 #include "workspace.h"
 
@@ -30,13 +31,15 @@ struct MeshTree {
   std::string mesh;
   std::uint64_t triangles = 0;
   TreeStatistics statistics;
+  double split_cost_sum = 0;
 };
 
 std::vector<MeshTree> inspect_trees(const Scene& scene, const Recipe& recipe) {
   std::vector<MeshTree> trees;
   for (const Mesh& mesh : scene.meshes) {
     check_interrupt();
-    trees.push_back({mesh.name, mesh.triangles.size(), statistics(tree_of(mesh, recipe))});
+    const Tree tree = tree_of(mesh, recipe);
+    trees.push_back({mesh.name, mesh.triangles.size(), statistics(tree), split_cost_sum(tree)});
   }
   return trees;
 }
@@ -73,7 +76,7 @@ Json inspection_json(const Scene& scene, const Structure& structure, const std::
   const BuildReport& report = structure.report();
   Json list = Json::array();
   for (const MeshTree& tree : trees) {
-    Json entry = {{"mesh", tree.mesh}, {"triangles", tree.triangles}};
+    Json entry = {{"mesh", tree.mesh}, {"triangles", tree.triangles}, {"split_cost_sum", tree.split_cost_sum}};
     entry.update(to_json(tree.statistics));
     list.push_back(std::move(entry));
   }

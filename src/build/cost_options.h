@@ -15,22 +15,30 @@ struct CostOptions {
   std::uint32_t leaf = 4;
   float traversal_cost = 1;
   bool pairs = false;
+  Coincident coincident = Coincident::halve;
 };
 
+/// What is searched, and when the search gives up.
 template <class T>
-void add_cost_options(OptionsOf<T>& options) {
-  add_arity(options);
+void add_search(OptionsOf<T>& options) {
   options.choice("cost", static_cast<CostChoice T::*>(&T::cost), cost_model_names(),
                  "how likely a ray is taken to enter a child");
   options.choice("axis", static_cast<AxisChoice T::*>(&T::axis), {"longest", "all"}, "which axes are searched");
-  add_extent(options);
-  add_centroid(options);
   options.choice("stop", static_cast<Stop T::*>(&T::stop), {"count", "cost"},
                  "when references that fit a leaf become one: always, or when splitting them does not pay");
   options.integer("leaf", static_cast<std::uint32_t T::*>(&T::leaf), 1, largest_leaf, "most references in a leaf");
   options.real("traversal_cost", static_cast<float T::*>(&T::traversal_cost), 0, 1e6f,
                "cost of visiting a node, in primitive tests; for stop=cost");
+}
+
+template <class T>
+void add_cost_options(OptionsOf<T>& options) {
+  add_arity(options);
+  add_search(options);
+  add_extent(options);
+  add_centroid(options);
   options.flag("pairs", static_cast<bool T::*>(&T::pairs), "two references are always parted, whatever it costs");
+  add_coincident(options);
 }
 
 /// The axes a set is to be cut along: [first, last]. Axes along which all centroids coincide are the caller's to skip.
@@ -59,14 +67,14 @@ template <class Split>
 Tree build_by_cost(BuildInput input, const CostOptions& options, const Split& split_set) {
   const Centroids centroids(input, options.centroid);
   if (options.cost == CostChoice::sah) {
-    return build_top_down(std::move(input), centroids, options.leaf,
-                          [&](const ReferenceSet& set) { return split_set(set, centroids, SurfaceAreaPricing{}); });
+    const auto split = [&](const ReferenceSet& set) { return split_set(set, centroids, SurfaceAreaPricing{}); };
+    return build_top_down(std::move(input), centroids, options.leaf, split, options.coincident);
   }
   Box scene;
   for (const Reference& reference : input.references) scene.grow(reference.box());
   const std::unique_ptr<CostModel> model = make_cost_model(options.cost, scene);
-  return build_top_down(std::move(input), centroids, options.leaf,
-                        [&](const ReferenceSet& set) { return split_set(set, centroids, ModelPricing(*model)); });
+  const auto split = [&](const ReferenceSet& set) { return split_set(set, centroids, ModelPricing(*model)); };
+  return build_top_down(std::move(input), centroids, options.leaf, split, options.coincident);
 }
 
 }  // namespace boxwood

@@ -1,5 +1,6 @@
 // Every stage of every recipe, one line each, and the presets. This is the only file that knows them all.
 #include "build/morton/stages.h"
+#include "build/pca/stages.h"
 #include "build/spatial/stages.h"
 #include "build/stages.h"
 #include "layout/stages.h"
@@ -12,12 +13,28 @@ namespace boxwood {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
-      median_stage(),   middle_stage(),       equal_stage(),
-      sweep_stage(),    binned_stage(),       ploc_stage(),
-      spatial_stage(),  collapse_stage(),     optimal_collapse_stage(),
-      reinsert_stage(), binary_stage(),       wide_stage(),
-      slab_stage(),     binary_split_stage(), wide_slab_stage(),
-      bih_stage(),      trace_stage(),
+      median_stage(),
+      middle_stage(),
+      equal_stage(),
+      sweep_stage(),
+      binned_stage(),
+      ploc_stage(),
+      spatial_stage(),
+      pca_stage(),
+      combined_stage(),
+      distance_stage(),
+      hlbvh_stage(),
+      collapse_stage(),
+      optimal_collapse_stage(),
+      reinsert_stage(),
+      binary_stage(),
+      wide_stage(),
+      slab_stage(),
+      binary_split_stage(),
+      wide_slab_stage(),
+      bih_stage(),
+      oriented_stage(),
+      trace_stage(),
 #ifdef BOXWOOD_EMBREE
       embree_stage(),
 #endif
