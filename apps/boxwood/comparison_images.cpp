@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "console.h"
+#include "expected_view.h"
 #include "render/render.h"
 #include "report/progress_bar.h"
 #include "workspace.h"
@@ -81,11 +82,12 @@ ComparisonImages write_images(const fs::path& folder, const Scene& scene, const 
   ComparisonImages images;
   images.rendering = rendering_file(folder, scene).string();
   std::vector<Image> counts;
+  const std::optional<ExpectedUse> use = expected_view(scene, recipes, view, threads);
   ProgressBar bar(stop_requested());
   for (std::size_t i = 0; i < recipes.size(); ++i) {
     if (is_peer(recipes[i]) && i > 0) continue;
     if (!bar.report(static_cast<double>(i) / static_cast<double>(recipes.size()), "drawing")) throw Cancelled();
-    const Structure structure = build(scene, recipes[i], {.threads = threads});
+    const Structure structure = build(scene, recipes[i], {.threads = threads, .use = pointer_to(use)});
     run_in_arena(threads, [&] {
       if (i == 0) write_png(images.rendering, render(scene, structure, settings_of(scene, view, "eyelight")).image);
       if (is_peer(recipes[i])) return;

@@ -18,10 +18,10 @@ struct BinnedOptions : CostOptions {
 template <class Pricing>
 Cuts cut_at_bins(const ReferenceSet& set, const Centroids& centroids, const BinnedOptions& options, Pricing pricing) {
   if (set.size() <= options.exact) return sweep(set, centroids, options, pricing);
-  if (is_leaf_by_count(set, options) || !pricing.begin(set.bounds)) return {};
+  if (is_leaf_by_count(set, options) || !pricing.begin(set)) return {};
   const BinnedCuts found =
-      find_binned_cuts(set, centroids, set.centers, axes_of(set, options), options.bins, options.k, pricing);
-  if (found.best.count == 0 || is_leaf_by_cost(set, options, found.best.price)) return {};
+      find_binned_cuts(set, centroids, set.centers, axes_of(set, options), options.bins, options, pricing);
+  if (found.best.cuts.count == 0 || is_leaf_by_cost(set, options, found.leaf_price)) return {};
   return apply(found, set, centroids);
 }
 
@@ -40,9 +40,10 @@ Stage binned_stage() {
   add_cost_options(options);
   options.integer("exact", &BinnedOptions::exact, 0, 64,
                   "sets of at most this many references are swept, which is faster there and never worse");
-  return builder_stage<BinnedOptions>("binned", "the cheapest border between equal bins",
-                                      "Wald 2007; wide BVH study; PCA study; SAH alternatives study", options,
-                                      build_binned, [](const BinnedOptions& chosen) { return chosen.k; });
+  return with_cost<BinnedOptions>(
+      builder_stage<BinnedOptions>("binned", "the cheapest border between equal bins",
+                                   "Wald 2007; wide BVH study; PCA study; SAH alternatives study", options,
+                                   build_binned, [](const BinnedOptions& chosen) { return chosen.k; }));
 }
 
 }  // namespace boxwood

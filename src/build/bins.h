@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "build/scratch.h"
 #include "build/top_down.h"
@@ -44,6 +45,9 @@ class BinMapping {
 class Bins {
  public:
   Bins(int first_axis, int last_axis, std::uint32_t bins);
+  /// Also counts which references are seen; for models.
+  template <class Points>
+  void count_seen(std::span<const Reference> references, const Points& points, const BinMapping& mapping);
 
   template <class Points>
   void add(std::span<const Reference> references, const Points& points, const BinMapping& mapping);
@@ -57,12 +61,14 @@ class Bins {
   struct Row {
     const Box4* boxes;
     const std::uint32_t* counts;
+    const std::uint32_t* seen_counts;
     const Box4& box(std::uint32_t i) const { return boxes[i]; }
     std::uint32_t count(std::uint32_t i) const { return counts[i]; }
+    std::uint32_t seen(std::uint32_t i) const { return seen_counts ? seen_counts[i] : 0; }
   };
   Row row(int axis) const {
     const std::size_t first = static_cast<std::size_t>(axis - first_axis_) * bins_;
-    return {&boxes_[first], &counts_[first]};
+    return {&boxes_[first], &counts_[first], seen_.empty() ? nullptr : &seen_[first]};
   }
 
  private:
@@ -73,6 +79,7 @@ class Bins {
   std::uint32_t bins_;
   Scratch<Box4, bins_on_stack> boxes_;
   Scratch<std::uint32_t, bins_on_stack> counts_;
+  std::vector<std::uint32_t> seen_;
 };
 
 template <class Points>
@@ -98,6 +105,18 @@ void Bins::add(std::span<const Reference> references, const Points& points, cons
     for (const Reference& reference : references) {
       const auto bin = static_cast<std::size_t>(mapping(points(reference), axis));
       add_to(static_cast<std::size_t>(axis - first_axis_) * bins + bin, box4(reference));
+    }
+  }
+}
+
+template <class Points>
+void Bins::count_seen(std::span<const Reference> references, const Points& points, const BinMapping& mapping) {
+  seen_.assign(total(), 0);
+  for (const Reference& reference : references) {
+    if (reference.seen == 0) continue;
+    const Int4 bin = mapping(points(reference));
+    for (int axis = first_axis_; axis <= last_axis_; ++axis) {
+      ++seen_[static_cast<std::size_t>(axis - first_axis_) * bins_ + static_cast<std::size_t>(bin[axis])];
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cost/registry.h"
 #include "stages.h"
 
 namespace boxwood {
@@ -17,7 +18,7 @@ int longest_of_centroids(const std::vector<Box>& boxes, Box& centers) {
 }
 
 /// The study's section 2.6, with unions made anew for every candidate.
-Primitives cheapest_bucket_border(const std::vector<Box>& boxes) {
+Primitives cheapest_bucket_border(const std::vector<Box>& boxes, const std::string& model) {
   constexpr int buckets = 12;
   Box centers;
   const auto axis = static_cast<std::size_t>(longest_of_centroids(boxes, centers));
@@ -38,7 +39,12 @@ Primitives cheapest_bucket_border(const std::vector<Box>& boxes) {
     if (lefts.empty() || lefts.size() == boxes.size()) continue;
     const auto left_count = static_cast<float>(lefts.size());
     const float right_count = static_cast<float>(boxes.size()) - left_count;
-    const float cost = left_count * half_area(left) + right_count * half_area(right);
+    float cost = left_count * half_area(left) + right_count * half_area(right);
+    const Vec3 e = intersect(left, right).extent();
+    const bool overlap = e.x > 0 && e.y > 0 && e.z > 0;
+    if (model == "overlap(disjoint=published)" || (model == "overlap" && overlap)) {
+      cost += (left_count + right_count) * (e.x * e.y + e.y * e.z + e.z * e.x);
+    }
     if (cost / half_area(whole) < best_cost) {
       best_cost = cost / half_area(whole);
       best_left = lefts;
@@ -51,11 +57,40 @@ TEST(TwelveBuckets, CutWherePbrtCuts) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     for (const float size : {0.01f, 0.4f}) {
       const std::vector<Box> boxes = random_boxes(60, size, seed);
-      const Tree tree =
-          build_study_tree("binned(bins=12, axis=longest, pairs=on, exact=0, leaf=1, coincident=leaf)", boxes);
-      EXPECT_EQ(primitives_below(tree, tree.nodes[0].first), cheapest_bucket_border(boxes));
+      for (const std::string model : {"sah", "overlap", "overlap(disjoint=published)"}) {
+        const Tree tree = build_study_tree(
+            "binned(bins=12, axis=longest, pairs=on, exact=0, leaf=1, coincident=leaf, cost=" + model + ")", boxes);
+        EXPECT_EQ(primitives_below(tree, tree.nodes[0].first), cheapest_bucket_border(boxes, model)) << model;
+      }
     }
   }
+}
+
+/// What the model adds to either side's probability for what both share.
+float shared(const std::string& model_text, const Box& parent, const Box& a, const Box& b) {
+  const CostChoice choice = CostChoice::parse(model_text);
+  const auto model = choice.make({parent, nullptr});
+  const Side left{a, 1}, right{b, 1};
+  const CostModel::Node node{parent, 2};
+  float alone = -1, left_out = -1, right_out = -1;
+  model->probabilities(node, {&left, 1}, {&alone, 1});
+  model->pair_probabilities(node, {&left, 1}, {&right, 1}, {&left_out, 1}, {&right_out, 1});
+  return left_out - alone;
+}
+
+TEST(OverlapCost, OfDisjointBoxes_IsTheStudysNumberOrNothing) {
+  const std::string published = "overlap(disjoint=published)";
+  const Box parent{{0, 0, 0}, {4, 1, 1}}, left{{0, 0, 0}, {1, 1, 1}}, right{{3, 0, 0}, {4, 1, 1}};
+  const float area = half_area(parent);
+  EXPECT_NEAR(shared(published, parent, left, right), (1 - 2 - 2) / area, 1e-6);  // a gap of 2: rewarded
+  EXPECT_EQ(shared("overlap", parent, left, right), 0);
+  const Box touching{{1, 0, 0}, {4, 1, 1}};
+  EXPECT_NEAR(shared(published, parent, left, touching), 1 / area, 1e-6);  // a whole face, though nothing overlaps
+  EXPECT_EQ(shared("overlap", parent, left, touching), 0);
+  const Box overlapping{{0.5f, 0, 0}, {4, 1, 1}};
+  EXPECT_NEAR(shared(published, parent, left, overlapping), 2 / area, 1e-6);
+  EXPECT_NEAR(shared("overlap", parent, left, overlapping), 2 / area, 1e-6);
+  EXPECT_NEAR(shared("overlap(weight=0.5)", parent, left, overlapping), 1 / area, 1e-6);
 }
 
 TEST(Distance, PartsByTheTwoFarthestOfSixExtremes) {

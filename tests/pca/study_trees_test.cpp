@@ -23,6 +23,8 @@ const std::vector<std::string>& calls() {
                                                "pca(coincident=leaf, order=faithful)",
                                                "pca(stop=count, leaf=8)",
                                                "combined",
+                                               "combined(cost=overlap(disjoint=published))",
+                                               "pca(cost=overlap)",
                                                "combined(order=faithful)",
                                                "combined(axis=all)",
                                                "distance",

@@ -153,10 +153,11 @@ Tree gather(const std::vector<Treelet>& treelets) {
   const Centroids centroids(roots, CentroidKind::box);
   return build_top_down(std::move(roots), centroids, 1, [&](const ReferenceSet& set) {
     SurfaceAreaPricing pricing;
-    if (!pricing.begin(set.bounds)) return Cuts{};
+    if (!pricing.begin(set)) return Cuts{};
     constexpr std::uint32_t bins = 12;
     const int axis = longest_axis(set.centers);
-    return apply(find_binned_cuts(set, centroids, set.centers, {axis, axis}, bins, 2, pricing), set, centroids);
+    return apply(find_binned_cuts(set, centroids, set.centers, {axis, axis}, bins, CostOptions{}, pricing), set,
+                 centroids);
   });
 }
 

@@ -29,9 +29,10 @@ Cuts cut_along_principal_axes(const ReferenceSet& set, const Centroids& centroid
     return cut_at_planes(set, points, {longest, range.lower[longest], range.upper[longest]}, 2);
   }
   if (set.size() == 2 && options.pairs) return cut_by_count(set, points, longest, 2);
-  if (!pricing.begin(set.bounds)) return {};
-  const BinnedCuts found = find_binned_cuts(set, points, range, axes_of(range, options.axis), options.bins, 2, pricing);
-  if (found.best.count == 0 || is_leaf_by_cost(set, options, found.best.price)) return {};
+  if (!pricing.begin(set)) return {};
+  const BinnedCuts found =
+      find_binned_cuts(set, points, range, axes_of(range, options.axis), options.bins, options, pricing);
+  if (found.best.cuts.count == 0 || is_leaf_by_cost(set, options, found.leaf_price)) return {};
   return apply(found, set, points);
 }
 
@@ -52,8 +53,9 @@ Stage pca_stage() {
       "split", &PcaOptions::split, {"middle", "sah"},
       "where the longest principal axis is cut: midway, one reference per leaf, or at the cheapest bin border");
   add_pca_cost_options(options);
-  return builder_stage<PcaOptions>("pca", "cuts along the principal axes of the centroids", "Sauer 2019; PCA study",
-                                   options, build_pca, [](const PcaOptions&) { return 2u; });
+  return with_cost<PcaOptions>(builder_stage<PcaOptions>("pca", "cuts along the principal axes of the centroids",
+                                                         "Sauer 2019; PCA study", options, build_pca,
+                                                         [](const PcaOptions&) { return 2u; }));
 }
 
 }  // namespace boxwood

@@ -23,8 +23,6 @@ template <class T>
 void add_pca_cost_options(OptionsOf<T>& options) {
   options.integer("bins", static_cast<std::uint32_t T::*>(&T::bins), 2, max_bins, "bins per axis");
   add_search(options);
-  options.flag("pairs", static_cast<bool T::*>(&T::pairs), "two references are always parted, whatever it costs");
-  add_coincident(options);
   add_centroid(options);
   add_stored_order(options);
   options.real("presplit", static_cast<float T::*>(&T::presplit), 0, 4,
