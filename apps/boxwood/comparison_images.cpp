@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "expected_view.h"
+#include "render/heat_scale.h"
 #include "render/render.h"
 #include "report/progress_bar.h"
 #include "workspace.h"
@@ -15,9 +16,6 @@ namespace boxwood::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The brightest pixel in a hundred may burn out; else a few extreme rays leave everything else dark.
-constexpr double share_shown = 0.99;
 
 /// Letters and digits stay, each run of anything else becomes one dash.
 std::string file_name_part(const std::string& text) {
@@ -49,22 +47,6 @@ RenderSettings settings_of(const Scene& scene, const ViewOptions& view, const ch
   settings.height = view.height;
   settings.integrator = integrator;
   return settings;
-}
-
-/// The count that `share_shown` of the pixels do not exceed.
-float usual_maximum(const Image& counts) {
-  std::vector<float> values;
-  for (const Vec3& pixel : counts.pixels) values.push_back(std::max(pixel.x, pixel.y));
-  const auto rank = static_cast<std::ptrdiff_t>(share_shown * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-Image scaled(Image counts, float scale) {
-  if (scale > 0) {
-    for (Vec3& pixel : counts.pixels) pixel = pixel / scale;
-  }
-  return counts;
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ App::App(const std::vector<Scene>& frames, const AppOptions& options)
   state_.compare = options_.recipes.size() > 1;
   state_.settings.integrator = options_.integrator;
   glfwSetWindowUserPointer(window_.handle(), this);
+  // A click shorter than a frame is still one.
+  glfwSetInputMode(window_.handle(), GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
   glfwSetCharCallback(window_.handle(), on_character);
   glfwSetScrollCallback(window_.handle(), on_scroll);
 }
@@ -231,6 +233,7 @@ void App::lay_out_panes() {
 }
 
 void App::take_pictures() {
+  const bool done = painter_.activity() == "done";  // asked first, so that the pictures taken are the last
   if (const std::uint64_t version = painter_.version(); version != seen_version_) {
     seen_version_ = version;
     const auto newest = painter_.pictures();
@@ -245,7 +248,7 @@ void App::take_pictures() {
     }
   }
   const bool full = pictures_[0] && pictures_[0]->divisor == 1 && pictures_[0]->image.width == state_.settings.width;
-  if (save_asked_ && full && painter_.activity() == "done") {
+  if (save_asked_ && full && done) {
     save_asked_ = false;
     save_pictures();
   }

@@ -53,9 +53,8 @@ int main(int argc, char** argv) {
   cli.name("boxwood-viewer");
   cli.add_option("SCENE", line.scenes, "a file or generate:NAME(…); several are the frames of a sequence")->required();
   cli.add_option("-a,--recipe", line.app.recipes, "recipe to trace with; the first two are compared, r switches")
-      ->take_all()
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->take_all();
   cli.add_option("--integrator", line.app.integrator, "what is painted at first");
   cli.add_option("--camera", line.app.camera, "name of the scene's camera to start from");
   cli.add_option("--size", line.size, "of the window");

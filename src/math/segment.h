@@ -10,8 +10,8 @@ class Segment {
   /// From ray.t_near to `end`.
   Segment(const Ray& ray, float end);
 
-  /// Whether it meets the closed box, which must not be empty. Never true for a box while false for one that contains
-  /// it.
+  /// Whether it meets the box, which must not be empty. Never true for a box while false for one that contains it. A
+  /// ray that runs in the plane of a face may miss.
   bool meets(const Box& box) const {
     float near;
     return meets(box, near);

@@ -34,6 +34,8 @@ struct ProbeInput {
   unsigned threads = 1;          ///< of the arena that it runs in
   /// The trees behind the structure, one per mesh; none for a peer. Built anew when first asked for.
   std::function<const std::vector<Tree>&()> trees;
+  /// What the scene's first view traces; null when no recipe and no probe of the study asks for it.
+  const ExpectedUse* use = nullptr;
 };
 
 /// What a measurement is about: a structure alone, or a structure and a ray set.

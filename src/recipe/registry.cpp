@@ -62,8 +62,9 @@ const std::vector<Stage>& stages() {
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"fast", "ploc > collapse(8) > wide(8)", "quick to build"},
-      {"default", "ploc > reinsert > optimal-collapse(8) > wide(8)", "a good tree, small in memory, quick to build"},
+      {"fast", "ploc(radius=4, block=4, run=4) > collapse(8) > wide(8)", "quick to build"},
+      {"default", "ploc(block=4, run=4) > reinsert > optimal-collapse(8) > wide(8)",
+       "a good tree, small in memory, quick to build"},
       {"best", "spatial > reinsert > optimal-collapse(8) > wide(8)", "fewest tests per ray; slow to build"},
   };
   return all;

@@ -61,9 +61,13 @@ std::vector<unsigned char> srgb_bytes(const Image& image) {
   return rgb;
 }
 
+std::vector<unsigned char> encode_png(const Image& image) {
+  return encode_png(srgb_bytes(image), image.width, image.height);
+}
+
 void write_png(const std::filesystem::path& file, const Image& image) {
   check_size(file, image);
-  write_bytes(file, encode_png(srgb_bytes(image), image.width, image.height));
+  write_bytes(file, encode_png(image));
 }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {

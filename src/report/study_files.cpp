@@ -59,8 +59,24 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
+std::string picture_file_name(const StoredPicture& picture) {
+  std::string out;
+  for (const std::string* part : {&picture.scene, &picture.kind, &picture.recipe}) {
+    if (!out.empty() && !part->empty()) out += '-';
+    for (const char c : *part) {
+      const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      if (plain) {
+        out += c;
+      } else if (!out.ends_with('-')) {
+        out += '-';
+      }
+    }
+  }
+  return out + ".png";
+}
+
 void write_study(const fs::path& folder, const StudyResult& result) {
-  for (const char* name : {"tables", "plots"}) make_folder(folder / name);
+  for (const char* name : {"tables", "plots", "images"}) make_folder(folder / name);
   for (const TableResult& table : result.tables) {
     write(folder / "tables" / (table.spec.id + ".csv"),
           cells_csv(table.cells, joined(table.spec.rows, table.spec.columns), table.spec.figure));
@@ -68,6 +84,11 @@ void write_study(const fs::path& folder, const StudyResult& result) {
   for (const PlotResult& plot : result.plots) {
     write(folder / "plots" / (plot.spec.id + ".csv"),
           cells_csv(plot.cells, joined(joined(plot.spec.panels, plot.spec.series), {plot.spec.x}), plot.spec.figure));
+  }
+  for (const StoredPicture& picture : result.pictures) {
+    OutputFile out(folder / "images" / picture_file_name(picture));
+    out.write(std::as_bytes(std::span(picture.png)));
+    out.commit();
   }
   write(folder / "claims.csv", claims_csv(result.claims));
   write(folder / (result.study.name + ".toml"), result.study.file_text);

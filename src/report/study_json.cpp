@@ -62,6 +62,18 @@ Json scenes_json(const std::vector<SceneFacts>& scenes) {
   return out;
 }
 
+Json pictures_json(const std::vector<StoredPicture>& pictures) {
+  Json out = Json::array();
+  for (const StoredPicture& picture : pictures) {
+    out.push_back({{"scene", picture.scene},
+                   {"view", picture.view},
+                   {"recipe", picture.recipe},
+                   {"kind", picture.kind},
+                   {"file", "images/" + picture_file_name(picture)}});
+  }
+  return out;
+}
+
 Json run_json(const RunSpec& run) {
   return {{"rays", run.rays},     {"width", run.width},     {"height", run.height}, {"repetitions", run.repetitions},
           {"builds", run.builds}, {"threads", run.threads}, {"seed", run.seed},     {"probes", run.probes},
@@ -113,6 +125,7 @@ Json to_json(const StudyResult& result) {
           {"recipes", std::move(recipes)},
           {"tables", std::move(tables)},
           {"plots", std::move(plots)},
+          {"pictures", pictures_json(result.pictures)},
           {"run", run_json(study.run)},
           {"measurements", result.measurements},
           {"outliers", result.outliers},

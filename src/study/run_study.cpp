@@ -13,8 +13,11 @@
 #include "measure/clock.h"
 #include "measure/probe.h"
 #include "recipe/stage.h"
+#include "structure/mesh_geometry.h"
+#include "structure/object_use.h"
 #include "structure/pipeline.h"
 #include "study/observations.h"
+#include "study/pictures.h"
 #include "study/scene_finder.h"
 
 namespace boxwood {
@@ -102,6 +105,9 @@ class Run {
     announce(what);
   }
 
+  const ExpectedUse* use() const { return use_ ? &*use_ : nullptr; }
+  void tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants);
+  void draw(const StudyScene& scene, const std::vector<Contestant>& contestants);
   void build_structures(const StudyScene& scene, std::vector<Contestant>& contestants);
   void measure_rays(const StudyScene& scene, const Camera& view, const RaySet& rays,
                     std::vector<Contestant>& contestants);
@@ -119,6 +125,7 @@ class Run {
   std::vector<const Probe*> probes_;
   std::vector<Tree> trees_;
   std::string trees_are_of_;
+  std::optional<ExpectedUse> use_;
 };
 
 Subject Run::subject(const StudyScene& scene, const Contestant& contestant, const Probe& probe,
@@ -182,7 +189,12 @@ const std::vector<Tree>& Run::trees_of(const StudyScene& scene, const Contestant
   if (trees_are_of_ == key) return trees_;
   trees_.clear();
   if (contestant.recipe.stages().front().stage->kind != StageKind::peer) {
-    for (const Mesh& mesh : scene.scene.meshes) trees_.push_back(tree_of(mesh, contestant.recipe));
+    const std::vector<Box> boxes = instance_boxes(scene.scene);
+    for (std::uint32_t m = 0; m < scene.scene.meshes.size(); ++m) {
+      std::optional<KnownUse> known;
+      if (use_) known = use_of_mesh(*use_, scene.scene, m, boxes);
+      trees_.push_back(tree_of(scene.scene.meshes[m], contestant.recipe, known ? &*known : nullptr));
+    }
   }
   trees_are_of_ = key;
   return trees_;
@@ -196,7 +208,8 @@ ProbeInput Run::input(const StudyScene& scene, const Contestant& contestant, con
           .view = view,
           .build_cpu_ms = contestant.build_cpu_ms,
           .threads = study_.run.threads,
-          .trees = [this, &scene, &contestant]() -> const std::vector<Tree>& { return trees_of(scene, contestant); }};
+          .trees = [this, &scene, &contestant]() -> const std::vector<Tree>& { return trees_of(scene, contestant); },
+          .use = use()};
 }
 
 void Run::probe_and_store(const Subject& subject, const Probe& probe, const ProbeInput& input) {
@@ -206,6 +219,20 @@ void Run::probe_and_store(const Subject& subject, const Probe& probe, const Prob
     values.push_back({value.metric, find_metric(value.metric).unit, value.value});
   }
   store_.add(subject, values, environment_);
+}
+
+/// What the first view traces, for recipes that adapt to it and for the probe that judges trees by it.
+void Run::tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants) {
+  constexpr std::uint32_t block = 4;  // as the SAH alternatives study thins its rays
+  use_.reset();
+  const bool wanted =
+      std::ranges::any_of(probes_, [](const Probe* probe) { return probe->name == "quality"; }) ||
+      std::ranges::any_of(contestants, [](const Contestant& contestant) { return needs_use(contestant.recipe); });
+  if (!wanted) return;
+  announce("tracing what recipes may know of " + scene.name);
+  RaySetSettings settings = view_settings(scene.views.front());
+  settings.block = block;
+  use_ = expect_view(scene.scene, settings);
 }
 
 /// Every recipe once per round, in turn; the structures of the last round stay.
@@ -224,7 +251,7 @@ void Run::build_structures(const StudyScene& scene, std::vector<Contestant>& con
       if (missing.empty() && !(last && !contestant.structure)) continue;
       contestant.structure.reset();  // the old one must not take memory from the new one
       const double begin = now(Clock::thread_cpu);
-      contestant.structure = build(scene.scene, contestant.recipe, {.threads = study_.run.threads});
+      contestant.structure = build(scene.scene, contestant.recipe, {.threads = study_.run.threads, .use = use()});
       contestant.build_cpu_ms = 1e3 * (now(Clock::thread_cpu) - begin);
       for (const auto& [what, probe] : missing) {
         probe_and_store(what, *probe, input(scene, contestant, nullptr, view));
@@ -259,6 +286,18 @@ void Run::measure_rays(const StudyScene& scene, const Camera& view, const RaySet
   }
 }
 
+void Run::draw(const StudyScene& scene, const std::vector<Contestant>& contestants) {
+  std::vector<PicturedRecipe> pictured;
+  for (const RecipeSpec& recipe : study_.recipes) {
+    if (std::ranges::find(study_.pictures, recipe.label) == study_.pictures.end()) continue;
+    const auto found = std::ranges::find_if(
+        contestants, [&](const Contestant& contestant) { return contestant.recipe.text() == recipe.text; });
+    if (found != contestants.end()) pictured.push_back({recipe.label, &*found->structure});
+  }
+  announce("drawing " + scene.name);
+  keep_pictures(study_, scene, pictured, store_);
+}
+
 void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
   std::vector<Contestant> contestants;
   for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), {}, 0});
@@ -267,7 +306,9 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
     steps_ += steps_in(study_, spec);
     return;
   }
+  tell_use(scene, contestants);
   build_structures(scene, contestants);
+  draw(scene, contestants);
   const bool with_rays =
       std::ranges::any_of(probes_, [](const Probe* probe) { return probe->scope == ProbeScope::rays; });
   for (const Camera& view : scene.views) {
@@ -282,7 +323,9 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
 
 }  // namespace
 
-std::string stored_name(const Study& study) { return study.quick ? study.name + " (quick)" : study.name; }
+std::string stored_name(const Study& study) {
+  return study.quick ? study.name + std::string(quick_suffix) : study.name;
+}
 
 std::string camera_json(const Camera& camera) {
   const auto list = [](const Vec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };

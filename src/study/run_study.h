@@ -27,6 +27,7 @@ std::int64_t run_study(const Study& study, Store& store, const StudySettings& se
 
 /// The name under which a study's measurements are stored: quick runs are kept apart.
 std::string stored_name(const Study& study);
+inline constexpr std::string_view quick_suffix = " (quick)";
 
 /// The camera as the store keeps it.
 std::string camera_json(const Camera& camera);

@@ -163,6 +163,17 @@ FigureSpec read_figure(TomlReader& reader, const Vocabulary& vocabulary) {
   return figure;
 }
 
+/// A figure that is a mean over views cannot be told apart by view.
+void check_views(const TomlValue& where, const FigureSpec& figure,
+                 std::initializer_list<std::vector<std::string>> factor_lists) {
+  if (figure.each_view) return;
+  bool named = figure.where.contains("view") || figure.baseline.contains("view");
+  for (const std::vector<std::string>& factors : factor_lists) {
+    named = named || std::ranges::find(factors, "view") != factors.end();
+  }
+  if (named) where.fail(R"(names views, so it needs views = "each")");
+}
+
 TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   TomlReader reader(value);
   TableSpec table;
@@ -171,6 +182,7 @@ TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   table.figure = read_figure(reader, vocabulary);
   table.rows = read_factors(reader, "rows", vocabulary);
   table.columns = read_factors(reader, "columns", vocabulary);
+  check_views(value, table.figure, {table.rows, table.columns});
   reader.done();
   return table;
 }
@@ -187,6 +199,7 @@ PlotSpec read_plot(const TomlValue& value, const Vocabulary& vocabulary) {
   vocabulary.check_factor(x, plot.x);
   plot.series = read_factors(reader, "series", vocabulary);
   plot.panels = read_factors(reader, "panels", vocabulary);
+  check_views(value, plot.figure, {plot.series, plot.panels, {plot.x}});
   plot.y_title = reader.text("y_title", plot.figure.value);
   plot.log_y = reader.boolean("log_y", false);
   reader.done();
@@ -238,6 +251,7 @@ ClaimSpec read_claim(const TomlValue& value, const Vocabulary& vocabulary) {
   if (claim.expect) {
     claim.figure = read_figure(reader, vocabulary);
     claim.each = read_factors(reader, "each", vocabulary);
+    check_views(value, claim.figure, {claim.each});
     if (const TomlValue* need = reader.find("need")) {
       claim.need = need->word();
       check_need(*need, claim.need);
@@ -296,6 +310,9 @@ Study parse_study(std::string_view text, const std::string& file_name, bool quic
   for (const TomlValue* plot : reader.tables("plot")) study.plots.push_back(read_plot(*plot, vocabulary));
   for (const TomlValue* claim : reader.tables("claim")) study.claims.push_back(read_claim(*claim, vocabulary));
   study.pictures = reader.words("pictures");
+  std::vector<std::string> labels;
+  for (const RecipeSpec& recipe : study.recipes) labels.push_back(recipe.label);
+  check_words(reader, "pictures", study.pictures, labels);
   reader.done();
   check_distinct(file->root, study.scenes, &SceneSpec::name, "scenes");
   check_distinct(file->root, study.recipes, &RecipeSpec::label, "recipes");

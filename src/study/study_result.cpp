@@ -2,6 +2,7 @@
 
 #include "measure/significance.h"
 #include "study/run_study.h"
+#include "study/study_file.h"
 
 namespace boxwood {
 namespace {
@@ -24,7 +25,24 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
   return a;
 }
 
+/// The study as it was run; quick runs are stored under a name that says so.
+Study stored_study(const StoredStudy& stored) {
+  const bool quick = stored.name.ends_with(quick_suffix);
+  const std::string name = stored.name.substr(0, stored.name.size() - (quick ? quick_suffix.size() : 0));
+  return parse_study(stored.text, name + ".toml", quick);
+}
+
 }  // namespace
+
+std::vector<StudyResult> evaluate_all(const Store& store) {
+  std::vector<StudyResult> results;
+  for (const StoredStudy& stored : store.studies()) {
+    const std::vector<Measurement> measurements = store.measurements({.study = stored.name});
+    if (measurements.empty()) continue;
+    results.push_back(evaluate(stored_study(stored), store, measurements.back().environment));
+  }
+  return results;
+}
 
 StudyResult evaluate(const Study& study, const Store& store, std::int64_t environment) {
   StudyResult result;
@@ -36,6 +54,7 @@ StudyResult evaluate(const Study& study, const Store& store, std::int64_t enviro
       store.measurements({.study = stored_name(study), .environment = environment});
   result.measurements = measurements.size();
   result.outliers = count_outliers(measurements);
+  result.pictures = store.pictures(stored_name(study));
   for (const TableSpec& spec : study.tables) {
     result.tables.push_back({spec, cells(study, observations, spec.figure, joined(spec.rows, spec.columns))});
   }

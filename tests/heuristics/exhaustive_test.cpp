@@ -107,7 +107,7 @@ TEST(BestTree, ForcedLeaves_MayBeDearerThanGreedy) {
 }
 
 TEST(BestTree, SmallTriangles_ReachedInNumber) {
-  const std::vector<Box> boxes = small_boxes(40, 0.1f, 7);
+  const std::vector<Box> boxes = small_boxes(32, 0.1f, 7);
   const SmallSet set(boxes, {1.2, 4});
   BestTree best(set, Partitions::sorted);
   EXPECT_LE(best.cost(set.all()) / set.area_of(set.all()), sah_cost(greedy_tree(boxes), {1.2, 1}));
@@ -123,7 +123,7 @@ Tree built(const Stage& stage, const std::string& text, const std::vector<Box>& 
 TEST(ExhaustiveBuilder, SmallSets_TheCheapestTree) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const std::vector<Box> boxes = random_triangles(12, 300 + seed);
-    const Tree tree = built(exhaustive_stage(), "exhaustive(leaf=4, traversal_cost=1.2)", boxes);
+    const Tree tree = built(exhaustive_stage(), "exhaustive(most=12, leaf=4, traversal_cost=1.2)", boxes);
     EXPECT_EQ(validate(tree, boxes), "");
     EXPECT_NEAR(sah_cost(tree, {1.2, 1}), best_cost(boxes, {1.2, 4}), 1e-5);
   }

@@ -32,12 +32,12 @@ inline Tree octree_of(const Mesh& mesh, const std::string& text) {
 inline const std::vector<std::string>& octree_calls() {
   static const std::vector<std::string> all = {"octree",
                                                "octree(primitives=2, multiplication=8, depth=4, budget=10000)",
-                                               "octree(primitives=2, multiplication=3, depth=9)",
+                                               "octree(primitives=2, multiplication=3, depth=6)",
                                                "octree(primitives=4, exact=off)",
                                                "octree(decider=depth, depth=3, primitives=3)",
                                                "octree(decider=cluster, depth=5, primitives=4)",
                                                "octree(decider=sah, primitives=2)",
-                                               "octree(decider=sah, primitives=2, traversal_cost=0.5, depth=8)"};
+                                               "octree(decider=sah, primitives=2, traversal_cost=0.5, depth=6)"};
   return all;
 }
 

@@ -116,7 +116,7 @@ TEST_F(PbrtHostile, IncludesThatMultiplyAreRefused) {
   }
   write("40.pbrt", "Identity\n");
   const std::string told = refusal("start.pbrt", "Include \"0.pbrt\"");
-  EXPECT_NE(told.find("files are included more often than 65536"), std::string::npos) << told;
+  EXPECT_NE(told.find("files are included more often than 16384"), std::string::npos) << told;
 }
 
 TEST_F(PbrtHostile, ObjectsThatMultiplyAreRefused) {
@@ -125,7 +125,24 @@ TEST_F(PbrtHostile, ObjectsThatMultiplyAreRefused) {
     text += fmt::format("ObjectBegin \"{0}\" ObjectInstance \"{1}\" ObjectInstance \"{1}\" ObjectEnd\n", i, i - 1);
   }
   const std::string told = refusal("o.pbrt", text);
-  EXPECT_NE(told.find("o.pbrt:26: this makes more than 2^24 placements"), std::string::npos) << told;
+  EXPECT_NE(told.find("o.pbrt:25: this makes more than 2^24 placements"), std::string::npos) << told;
+}
+
+TEST_F(PbrtHostile, ObjectsOfNothingThatMultiplyAreRefusedToo) {
+  std::string text = "ObjectBegin \"0\" ObjectEnd\n";
+  for (int i = 1; i < 60; ++i) {
+    text += fmt::format("ObjectBegin \"{0}\" ObjectInstance \"{1}\" ObjectInstance \"{1}\" ObjectEnd\n", i, i - 1);
+  }
+  EXPECT_NE(refusal("o.pbrt", text).find("more than 2^24 placements"), std::string::npos);
+}
+
+TEST_F(PbrtHostile, ObjectsNestedTooDeepAreRefused) {
+  std::string text = "ObjectBegin \"0\" Shape \"disk\" ObjectEnd\n";
+  for (int i = 1; i < 100'000; ++i) {
+    text += fmt::format("ObjectBegin \"{}\" ObjectInstance \"{}\" ObjectEnd\n", i, i - 1);
+  }
+  const std::string told = refusal("o.pbrt", text);
+  EXPECT_NE(told.find("o.pbrt:65: objects are nested more than 64 deep"), std::string::npos) << told;
 }
 
 TEST_F(PbrtHostile, AbsurdSubdivisionIsCutDownWithANote) {

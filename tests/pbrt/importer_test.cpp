@@ -95,7 +95,7 @@ TEST_F(Pbrt, ObjectsPlacedSeveralTimesStayInstances) {
   expect_near(scene.meshes[1].positions[0], {0, 0, 1});
   expect_near(scene.instances[1].object_to_world.point({1, 0, 0}), {6, 0, 0});
   expect_near(scene.instances[2].object_to_world.point({1, 0, 0}), {4, 0, 0});
-  EXPECT_TRUE(notes_contain(scene, "o.pbrt:3: the object 'bush' is not defined"));
+  EXPECT_TRUE(notes_contain(scene, "o.pbrt:4: the object 'bush' is not defined"));
 }
 
 TEST_F(Pbrt, ObjectsInsideObjectsAreMultipliedOut) {

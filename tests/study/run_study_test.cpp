@@ -12,7 +12,7 @@ namespace boxwood::testing {
 namespace {
 
 const char* const small_study = R"toml(
-pictures = []
+pictures = ["wide(4)"]
 [run]
 rays = ["primary", "shadow"]
 size = [12, 10]
@@ -83,6 +83,13 @@ TEST(RunStudy, MeasuresEverythingOnce) {
   EXPECT_EQ(result.claims[0].verdict, Verdict::holds) << result.claims[0].measured;
   EXPECT_EQ(result.claims[1].verdict, Verdict::holds) << result.claims[1].measured;
   EXPECT_TRUE(result.claims[1].cells[0].cell.exact);
+  EXPECT_EQ(result.pictures.size(), 2u * 2u);  // of each scene a rendering and a heat map
+  for (const StoredPicture& picture : result.pictures) EXPECT_EQ(picture.png.at(1), 'P');
+
+  const std::vector<StudyResult> stored = evaluate_all(store);
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_EQ(stored[0].study.name, "small");
+  EXPECT_EQ(stored[0].claims[1].measured, result.claims[1].measured);
 }
 
 TEST(RunStudy, Quick_IsKeptApart) {

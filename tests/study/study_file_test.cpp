@@ -109,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{claim + "above = 1\nvalue = \"trace_m\"", "'trace_ms'"},
                       Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nwhere = { kk = 4 }", "'k'"},
                       Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nwhere = { k = 3 }", "knows no k '3'"},
-                      Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nneed = \"lots\"", "most"}));
+                      Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nneed = \"lots\"", "most"},
+                      Mistake{claim + "above = 1\nvalue = \"trace_ms\"\neach = [\"view\"]", "views = \"each\""}));
 
 TEST(StudyFile, ThatIsNotThere_IsNamed) { EXPECT_THROW(read_study("no-such-study.toml"), Error); }
 

@@ -75,6 +75,7 @@ void Painter::show(const ViewState& state) {
     wanted_set_ = fresh_ = true;
     full_ = false;
     stop_ = true;
+    activity_ = "painting";
   }
   changed_.notify_all();
 }
@@ -192,7 +193,7 @@ void Painter::paint(const ViewState& state, Stop& stop) {
   }
   {
     const std::lock_guard lock(mutex_);
-    full_ = true;
+    if (!fresh_) full_ = true;
   }
   changed_.notify_all();
   for (std::uint32_t samples = 1; samples + 4 <= samples_; samples += 4) {

@@ -72,7 +72,7 @@ class Walker {
     const Tree::Node& node = tree_.nodes[open.node];
     if (node.is_leaf()) return visit_leaf(open);
     const std::size_t base = stack_.size();
-    const bool descending = order_ != ChildOrder::none && node.axis != Tree::mixed_axis && !node.fixed_order &&
+    const bool descending = order_ == ChildOrder::axis && node.axis != Tree::mixed_axis && !node.fixed_order &&
                             std::signbit(ray_.direction[node.axis]);
     // The last to visit goes on the stack first.
     for (std::uint32_t c = 0; c < node.count; ++c) {

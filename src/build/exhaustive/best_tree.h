@@ -10,9 +10,8 @@ enum class Partitions { sorted, all };
 
 /// The cheapest of all trees over a small set, by remembering the best subtree of every subset met. A tree's cost is a
 /// sum over its nodes, so the best subtree does not depend on the rest of the tree; and with sorted cuts a subset is an
-/// interval of ranks on each axis, so there are at most (n^2 / 2)^3 of them, far fewer in practice: 60 items take
-/// seconds. All partitions: 3^n steps at worst, for up to 20 items. SAH alternatives study, section 2.14 (the exact
-/// oracle).
+/// interval of ranks on each axis, so there are at most (n^2 / 2)^3 of them, far fewer in practice. All partitions: 3^n
+/// steps at worst. SAH alternatives study, section 2.14 (the exact oracle).
 class BestTree {
  public:
   BestTree(const SmallSet& set, Partitions partitions) : set_(set), partitions_(partitions) {}

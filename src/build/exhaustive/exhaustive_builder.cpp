@@ -1,7 +1,10 @@
 // The cheapest tree there is by surface area, not the greedy one: over small sets. Larger ones are swept greedily until
 // they are small enough. SAH alternatives study, section 2.14.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "boxwood/error.h"
 #include "build/exhaustive/best_tree.h"
 #include "build/exhaustive/stages.h"
 #include "build/sweep.h"
@@ -10,7 +13,7 @@ namespace boxwood {
 namespace {
 
 struct ExhaustiveOptions {
-  std::uint32_t most = 12;
+  std::uint32_t most = 8;
   Partitions partitions = Partitions::sorted;
   Stop stop = Stop::cost;
   std::uint32_t leaf = 4;
@@ -48,6 +51,10 @@ Cuts cut_of_best_tree(const ReferenceSet& set, const Centroids& centroids, const
 }
 
 Tree build_exhaustive(const ExhaustiveOptions& options, BuildInput input) {
+  constexpr std::uint32_t most_for_all = 20;
+  if (options.partitions == Partitions::all && options.most > most_for_all) {
+    throw UsageError(fmt::format("exhaustive(partitions=all) takes 3^most steps; use most={} or less", most_for_all));
+  }
   const Centroids centroids(input, options.centroid);
   CostOptions greedy;
   greedy.stop = options.stop;
@@ -65,7 +72,7 @@ Stage exhaustive_stage() {
   OptionsOf<ExhaustiveOptions> options;
   options
       .integer("most", &ExhaustiveOptions::most, 2, largest_small_set,
-               "references whose best tree is sought; larger sets are swept greedily. 60 take seconds each")
+               "references whose best tree is sought; larger sets are swept greedily")
       .choice("partitions", &ExhaustiveOptions::partitions, {"sorted", "all"},
               "what is tried: cuts along an axis, or every partition there is, which takes 3^most steps")
       .choice("stop", &ExhaustiveOptions::stop, {"count", "cost"},

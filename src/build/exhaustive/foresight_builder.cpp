@@ -14,7 +14,7 @@ namespace boxwood {
 namespace {
 
 struct ForesightOptions {
-  std::uint32_t tries = 6;
+  std::uint32_t tries = 4;
   std::uint32_t bins = 16;
   std::uint32_t leaf = 4;
   float traversal_cost = 1;

@@ -46,28 +46,25 @@ double SmallSet::least_cost(Subset subset, double area) const {
   return may_be_leaf(subset) ? std::min(as_leaf, as_inner) : as_inner;
 }
 
-std::vector<std::uint32_t> SmallSet::sorted(Subset subset, std::size_t axis) const {
-  std::vector<std::uint32_t> items;
-  for (const std::uint32_t item : orders_[axis]) {
-    if (subset >> item & 1) items.push_back(item);
-  }
-  return items;
-}
-
 std::vector<SmallSet::Cut> SmallSet::cuts(Subset subset) const {
   std::vector<Cut> cuts;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::vector<std::uint32_t> items = sorted(subset, axis);
+  cuts.reserve(3 * (count(subset) - 1));
+  std::array<std::uint32_t, largest_small_set> items;
+  for (const std::vector<std::uint32_t>& order : orders_) {
+    std::size_t size = 0;
+    for (const std::uint32_t item : order) {
+      if (subset >> item & 1) items[size++] = item;
+    }
     const std::size_t first = cuts.size();
     Box box;
     Subset left = 0;
-    for (std::size_t i = 0; i + 1 < items.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < size; ++i) {
       box.grow(boxes_[items[i]]);
       left |= Subset{1} << items[i];
       cuts.push_back({left, subset & ~left, least_cost(left, double{half_area(box)})});
     }
     box = {};
-    for (std::size_t i = items.size(); i-- > 1;) {
+    for (std::size_t i = size; i-- > 1;) {
       box.grow(boxes_[items[i]]);
       Cut& cut = cuts[first + i - 1];
       cut.least += least_cost(cut.right, double{half_area(box)});

@@ -42,9 +42,6 @@ class SmallSet {
   /// No tree over the subset is cheaper.
   double least_cost(Subset subset) const { return least_cost(subset, area_of(subset)); }
 
-  /// The subset's items in order along an axis.
-  std::vector<std::uint32_t> sorted(Subset subset, std::size_t axis) const;
-
   /// A way to part a subset in two, and a lower bound of what both cost.
   struct Cut {
     Subset left = 0, right = 0;

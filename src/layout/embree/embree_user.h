@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boxwood/ray.h"
+#include "boxwood/scene.h"
 #include "boxwood/transform.h"
 #include "layout/layout.h"
 #include "trace/leaf_triangle.h"

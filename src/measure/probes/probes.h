@@ -8,6 +8,7 @@ Probe size_probe();
 Probe splits_probe();
 Probe layout_probe();
 Probe tree_probe();
+Probe quality_probe();
 Probe time_probe();
 Probe tests_probe();
 Probe answers_probe();

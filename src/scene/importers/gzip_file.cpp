@@ -32,7 +32,8 @@ std::size_t read(gzFile handle, char* buffer, std::size_t size, const std::strin
 
 }  // namespace
 
-ByteStream::ByteStream(const std::filesystem::path& file) : handle_(open(file)), name_(file.string()) {}
+ByteStream::ByteStream(const std::filesystem::path& file)
+    : handle_(open(file)), name_(file.string()), buffer_(1 << 16) {}
 
 ByteStream::~ByteStream() { gzclose_r(static_cast<gzFile>(handle_)); }
 

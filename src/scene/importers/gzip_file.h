@@ -1,8 +1,8 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace boxwood {
 
@@ -25,7 +25,7 @@ class ByteStream {
   bool refill();
   void* handle_;  // zlib's
   std::string name_;
-  std::array<char, 1 << 16> buffer_;
+  std::vector<char> buffer_;
   std::size_t position_ = 0, size_ = 0;
 };
 

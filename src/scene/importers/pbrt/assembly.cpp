@@ -10,6 +10,7 @@ namespace boxwood::pbrt {
 namespace {
 
 constexpr std::uint64_t most_placements = std::uint64_t{1} << 24;
+constexpr std::uint32_t deepest_object = 64;
 
 /// Whether the triangle runs clockwise seen from where its normals point.
 bool runs_against(const Mesh& mesh, const Triangle& t) {
@@ -60,8 +61,7 @@ void Assembly::begin_object(std::string name) {
 
 void Assembly::end_object() {
   defining_ = false;
-  Object& object = objects_.back();
-  if (!object.mesh.triangles.empty()) ++object.placements;
+  ++objects_.back().placements;
   names_[defined_name_] = static_cast<std::uint32_t>(objects_.size() - 1);
 }
 
@@ -69,7 +69,12 @@ bool Assembly::place_object(const std::string& name, const Transform& to_world, 
   const auto found = names_.find(name);
   if (found == names_.end()) return false;
   Object& parent = objects_[defining_ ? objects_.size() - 1 : 0];
-  parent.placements += objects_[found->second].placements;
+  const Object& placed = objects_[found->second];
+  if (defining_) parent.depth = std::max(parent.depth, placed.depth + 1);
+  if (parent.depth > deepest_object) {
+    throw Error(fmt::format("{}: objects are nested more than {} deep; flatten them", place, deepest_object));
+  }
+  parent.placements += placed.placements;
   if (parent.placements > most_placements) {
     throw Error(fmt::format("{}: this makes more than 2^24 placements of objects; use fewer", place));
   }

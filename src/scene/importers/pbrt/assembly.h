@@ -27,7 +27,8 @@ class Assembly {
   bool defining() const { return defining_; }
   void begin_object(std::string name);
   void end_object();
-  /// Places an object; false when there is none of that name. Throws Error naming `place` beyond 2^24 placements.
+  /// Places an object; false when there is none of that name. Throws Error naming `place` beyond 2^24 placements or
+  /// 64 levels.
   bool place_object(const std::string& name, const Transform& to_world, const std::string& place);
 
   /// The number of a material equal to this one but for its name. Throws Error naming `place` beyond 65,535.
@@ -44,7 +45,8 @@ class Assembly {
   struct Object {
     Mesh mesh;
     std::vector<Part> parts;
-    std::uint64_t placements = 0;  ///< of meshes that one placement of this object makes
+    std::uint64_t placements = 0;  ///< of objects, itself included, that one placement of this one makes
+    std::uint32_t depth = 1;       ///< of objects in objects
   };
   using MaterialKey = std::vector<float>;
 

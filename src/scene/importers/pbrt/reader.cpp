@@ -6,7 +6,7 @@
 namespace boxwood::pbrt {
 namespace {
 
-constexpr std::size_t deepest_scope = 10'000, deepest_include = 64, most_includes = 65'536;
+constexpr std::size_t deepest_scope = 10'000, deepest_include = 64, most_includes = 16'384;
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
