@@ -47,10 +47,10 @@ const std::vector<Stage>& stages() {
       binary_split_stage(),
       wide_slab_stage(),
       bih_stage(),
-      oriented_stage(),
       octree_layout_stage(),
       bit_octree_stage(),
       quantized_stage(),
+      oriented_stage(),
       trace_stage(),
   // clang-format on
 #ifdef BOXWOOD_EMBREE

@@ -12,6 +12,7 @@
 #include "build/morton/radix_sort.h"
 #include "build/morton/stages.h"
 #include "build/reduce.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 namespace {

@@ -22,6 +22,8 @@ namespace HWY_NAMESPACE {
 /// 5 and 9 u m; the box test on coordinates up to sqrt(3) m adds 12 u m. Boxes are widened by 128 u m, twice all that.
 class OrientedTester {
  public:
+  using Slot = std::uint32_t;
+
   OrientedTester(const OrientedNodes& nodes, const PreparedRay& ray) : nodes_(nodes), memory_(nodes.memory.data()) {
     float magnitude = 0x1p-26f;
     for (int axis = 0; axis < 3; ++axis) {
