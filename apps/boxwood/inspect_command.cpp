@@ -16,6 +16,7 @@
 #include "structure/mesh_geometry.h"
 #include "structure/object_use.h"
 #include "structure/pipeline.h"
+#include "tree/split_cost.h"
 #include "tree/statistics.h"
 #include "workspace.h"
 
@@ -37,6 +38,7 @@ struct MeshTree {
   std::uint64_t triangles = 0;
   TreeStatistics statistics;
   TreeMetrics metrics;
+  double split_cost_sum = 0;
 };
 
 std::vector<MeshTree> inspect_trees(const Scene& scene, const Recipe& recipe, const ExpectedUse& use,
@@ -48,7 +50,8 @@ std::vector<MeshTree> inspect_trees(const Scene& scene, const Recipe& recipe, co
     const Mesh& mesh = scene.meshes[m];
     const KnownUse known = use_of_mesh(use, scene, m, boxes);
     const Tree tree = tree_of(mesh, recipe, &known);
-    trees.push_back({mesh.name, mesh.triangles.size(), statistics(tree), tree_metrics(tree, mesh, known, epo_samples)});
+    trees.push_back({mesh.name, mesh.triangles.size(), statistics(tree), tree_metrics(tree, mesh, known, epo_samples),
+                     split_cost_sum(tree)});
   }
   return trees;
 }
@@ -105,7 +108,7 @@ Json inspection_json(const Scene& scene, const Structure& structure, const std::
   const BuildReport& report = structure.report();
   Json list = Json::array();
   for (const MeshTree& tree : trees) {
-    Json entry = {{"mesh", tree.mesh}, {"triangles", tree.triangles}};
+    Json entry = {{"mesh", tree.mesh}, {"triangles", tree.triangles}, {"split_cost_sum", tree.split_cost_sum}};
     entry.update(to_json(tree.statistics));
     entry["metrics"] = to_json(tree.metrics);
     list.push_back(std::move(entry));

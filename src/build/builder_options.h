@@ -34,6 +34,13 @@ void add_extent(OptionsOf<T>& options) {
 }
 
 template <class T>
+void add_coincident(OptionsOf<T>& options) {
+  options.choice(
+      "coincident", static_cast<Coincident T::*>(&T::coincident), {"halve", "leaf"},
+      "references with one centroid that are too many for a leaf: halved by count, or one leaf all the same");
+}
+
+template <class T>
 void add_centroid(OptionsOf<T>& options) {
   options.choice("centroid", static_cast<CentroidKind T::*>(&T::centroid), {"box", "mean"},
                  "what references are ordered by: the centre of their box or their own centre of mass");

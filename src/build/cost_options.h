@@ -22,16 +22,15 @@ struct CostOptions {
   float traversal_cost = 1;
   LeafTest leaf_test = LeafTest::model;
   bool pairs = false;
+  Coincident coincident = Coincident::halve;
 };
 
+/// What is searched, and when the search gives up.
 template <class T>
-void add_cost_options(OptionsOf<T>& options) {
-  add_arity(options);
+void add_search(OptionsOf<T>& options) {
   add_cost_choice(options, "cost", static_cast<CostChoice T::*>(&T::cost),
                   "how likely a ray is taken to enter a child");
   options.choice("axis", static_cast<AxisChoice T::*>(&T::axis), {"longest", "all"}, "which axes are searched");
-  add_extent(options);
-  add_centroid(options);
   options.choice("stop", static_cast<Stop T::*>(&T::stop), {"count", "cost"},
                  "when references that fit a leaf become one: always, or when splitting them does not pay");
   options.integer("leaf", static_cast<std::uint32_t T::*>(&T::leaf), 1, largest_leaf, "most references in a leaf");
@@ -40,6 +39,15 @@ void add_cost_options(OptionsOf<T>& options) {
   options.choice("leaf_test", static_cast<LeafTest T::*>(&T::leaf_test), {"model", "area"},
                  "whose prices say whether splitting pays: the cost model's, or surface area whatever the model");
   options.flag("pairs", static_cast<bool T::*>(&T::pairs), "two references are always parted, whatever it costs");
+  add_coincident(options);
+}
+
+template <class T>
+void add_cost_options(OptionsOf<T>& options) {
+  add_arity(options);
+  add_search(options);
+  add_extent(options);
+  add_centroid(options);
 }
 
 /// The axes a set is to be cut along: [first, last]. Axes along which all centroids coincide are the caller's to skip.
@@ -93,7 +101,7 @@ Tree build_by_cost(BuildInput input, const CostOptions& options, const Split& sp
   const Centroids centroids(input, options.centroid);
   const auto split_by_area = [&](const ReferenceSet& set) { return split_set(set, centroids, SurfaceAreaPricing{}); };
   if (options.cost.is_surface_area()) {
-    return build_top_down(std::move(input), centroids, options.leaf, split_by_area);
+    return build_top_down(std::move(input), centroids, options.leaf, split_by_area, options.coincident);
   }
   Box scene;
   for (const Reference& reference : input.references) scene.grow(reference.box());
@@ -103,7 +111,7 @@ Tree build_by_cost(BuildInput input, const CostOptions& options, const Split& sp
     if (model->is_surface_area(set.memory)) return split_by_area(set);
     return split_set(set, centroids, ModelPricing(*model));
   };
-  return build_top_down(std::move(input), centroids, options.leaf, split, model.get());
+  return build_top_down(std::move(input), centroids, options.leaf, split, options.coincident, model.get());
 }
 
 /// Tells the registry whether a stage with these options must know what will be traced.

@@ -15,6 +15,8 @@
 namespace boxwood {
 
 inline constexpr std::uint32_t max_children = 16;
+/// Sets of at least this many references are looked through by several threads.
+inline constexpr std::uint32_t parallel_size = 1 << 16;
 
 /// What a splitter is asked to divide: at least two references, theirs to permute.
 struct ReferenceSet {
@@ -38,6 +40,12 @@ struct Cuts {
   }
 };
 
+/// What becomes of references whose centroids all coincide, where they are more than a leaf is to hold.
+enum class Coincident {
+  halve,  ///< halved by count, so that no leaf is larger than the limit
+  leaf    ///< one leaf, as in pbrt
+};
+
 /// Permutes the set so that every part is contiguous and says where the cuts are. No cuts: make a leaf, or, when the
 /// set is above the leaf limit, halve it by count. Thread safe, deterministic.
 using Splitter = std::function<Cuts(const ReferenceSet& set)>;
@@ -49,6 +57,6 @@ using Splitter = std::function<Cuts(const ReferenceSet& set)>;
 /// input, and about 120 while the finished nodes are copied out of their slots. Throws Error above 2^31 references.
 /// `model` is told of every node before it is split; null: there is none.
 Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split,
-                    const CostModel* model = nullptr);
+                    Coincident coincident = Coincident::halve, const CostModel* model = nullptr);
 
 }  // namespace boxwood

@@ -8,6 +8,7 @@ CostModelEntry perspective_entry();
 CostModelEntry parallel_entry();
 CostModelEntry ray_distribution_entry();
 CostModelEntry occlusion_entry();
+CostModelEntry overlap_entry();
 CostModelEntry blend_entry();
 
 /// Wraps typed functions.

@@ -39,6 +39,7 @@ const std::vector<CostModelEntry>& cost_models() {
       parallel_entry(),
       ray_distribution_entry(),
       occlusion_entry(),
+      overlap_entry(),
       blend_entry(),
   };
   return all;

@@ -9,6 +9,7 @@ Stage slab_stage();
 Stage binary_split_stage();
 Stage wide_slab_stage();
 Stage bih_stage();
+Stage oriented_stage();
 Stage trace_stage();
 #ifdef BOXWOOD_EMBREE
 Stage embree_stage();

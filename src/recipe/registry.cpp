@@ -2,6 +2,7 @@
 #include "build/exhaustive/stages.h"
 #include "build/morton/stages.h"
 #include "build/octree/stages.h"
+#include "build/pca/stages.h"
 #include "build/spatial/stages.h"
 #include "build/srdh/stages.h"
 #include "build/stages.h"
@@ -31,6 +32,10 @@ const std::vector<Stage>& stages() {
       srdh_stage(),
       spatial_stage(),
       octree_builder_stage(),
+      pca_stage(),
+      combined_stage(),
+      distance_stage(),
+      hlbvh_stage(),
       collapse_stage(),
       optimal_collapse_stage(),
       reinsert_stage(),
@@ -45,6 +50,7 @@ const std::vector<Stage>& stages() {
       octree_layout_stage(),
       bit_octree_stage(),
       quantized_stage(),
+      oriented_stage(),
       trace_stage(),
   // clang-format on
 #ifdef BOXWOOD_EMBREE

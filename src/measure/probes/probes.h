@@ -5,6 +5,7 @@ namespace boxwood {
 
 Probe build_probe();
 Probe size_probe();
+Probe splits_probe();
 Probe layout_probe();
 Probe tree_probe();
 Probe quality_probe();
