@@ -1,6 +1,6 @@
 // Traces the same rays with our kernels and with Embree 3, in turn, in one process and one thread. Prints million rays
 // per second of the thread's CPU time and the median of the paired ratios over Embree's best call of that column.
-//   trace_bench SCENE [RECIPE-of-a-tree] [repeats] [kinds]
+//   trace_bench SCENE ["RECIPE; RECIPE; …"] [repeats] [kinds]
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -10,15 +10,14 @@
 #include <memory>
 #include <ranges>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "boxwood/ray_set.h"
 #include "boxwood/scene.h"
 #include "boxwood/structure.h"
-#include "layout/simd/wide_simd.h"
 #include "measure/clock.h"
 #include "structure/mesh_geometry.h"
-#include "structure/pipeline.h"
 
 namespace boxwood {
 namespace {
@@ -210,37 +209,58 @@ std::vector<Contestant> embree_contestants(const std::vector<std::unique_ptr<Emb
   return out;
 }
 
-void add_ours(std::vector<Contestant>& contestants, const std::string& name,
-              const std::shared_ptr<const Layout>& layout, std::vector<Hit>& hits, std::vector<std::uint8_t>& blocked) {
+void add_ours(std::vector<Contestant>& contestants, const std::string& name, const Structure& structure,
+              std::vector<Hit>& hits, std::vector<std::uint8_t>& blocked) {
   contestants.push_back({name + ".single",
                          false,
-                         [&, layout](const RaySet& set) {
+                         [&](const RaySet& set) {
                            for (std::size_t i = 0; i < set.rays.size(); ++i) {
                              if (set.query == Query::closest_hit)
-                               hits[i] = layout->closest_hit(set.rays[i]);
+                               hits[i] = structure.closest_hit(set.rays[i]);
                              else
-                               blocked[i] = layout->any_hit(set.rays[i]) ? 1 : 0;
+                               blocked[i] = structure.any_hit(set.rays[i]) ? 1 : 0;
                            }
                          },
                          {}});
   contestants.push_back({name + ".batch",
                          false,
-                         [&, layout](const RaySet& set) {
+                         [&](const RaySet& set) {
                            if (set.query == Query::closest_hit)
-                             layout->closest_hits(set.rays, hits);
+                             structure.closest_hits(set.rays, std::span(hits).first(set.rays.size()));
                            else
-                             layout->any_hits(set.rays, blocked);
+                             structure.any_hits(set.rays, std::span(blocked).first(set.rays.size()));
                          },
                          {}});
 }
 
+/// What the rays of a set do on average.
+void print_counts(std::size_t number, const Structure& structure, const RaySet& set) {
+  std::vector<RayCounters> counters(set.rays.size());
+  std::vector<Hit> hits(set.rays.size());
+  std::vector<std::uint8_t> blocked(set.rays.size());
+  if (set.query == Query::closest_hit)
+    structure.closest_hits_counted(set.rays, hits, counters);
+  else
+    structure.any_hits_counted(set.rays, blocked, counters);
+  double steps = 0, leaves = 0, tests = 0;
+  for (const RayCounters& counter : counters) {
+    steps += counter.steps, leaves += counter.leaves, tests += counter.primitive_tests;
+  }
+  const auto rays = static_cast<double>(set.rays.size());
+  fmt::print("{:10} [{}] {:.2f} steps, {:.2f} leaves, {:.2f} triangles per ray\n", set.kind, number, steps / rays,
+             leaves / rays, tests / rays);
+}
+
 int run(int argc, char** argv) {
   const std::string file = argc > 1 ? argv[1] : "generate:random";
-  const std::string recipe = argc > 2 ? argv[2] : "binned > collapse(8) > wide(8)";
+  const std::string recipes = argc > 2 ? argv[2] : "default";
   const int repeats = argc > 3 ? std::stoi(argv[3]) : 5;
   const Scene scene = flatten(load(file));
   const Mesh& mesh = scene.meshes.front();
-  const Structure structure = build(scene, recipe);
+  std::vector<Structure> structures;
+  for (const auto part : std::views::split(recipes, ';')) {
+    structures.push_back(build(scene, std::string_view(part.begin(), part.end())));
+  }
 
   RaySetSettings settings;
   settings.camera = scene.cameras.front();
@@ -248,7 +268,7 @@ int run(int argc, char** argv) {
   settings.random_rays = 1u << 18;
   std::vector<std::string> kinds = {"primary", "diffuse", "random", "ao", "shadow"};
   if (argc > 4) kinds.assign(argv + 4, argv + argc);
-  std::vector<RaySet> sets = make_ray_sets(scene, structure, settings, kinds);
+  std::vector<RaySet> sets = make_ray_sets(scene, structures.front(), settings, kinds);
   std::size_t longest = 0;
   for (RaySet& set : sets) {
     if (set.kind != "primary" && set.rays.size() > settings.random_rays) set.rays.resize(settings.random_rays);
@@ -264,14 +284,17 @@ int run(int argc, char** argv) {
   embree.push_back(std::make_unique<EmbreeScene>(device, mesh, RTC_BUILD_QUALITY_MEDIUM));
   embree.push_back(std::make_unique<EmbreeScene>(device, mesh, RTC_BUILD_QUALITY_HIGH));
 
-  Contents contents;
-  contents.mesh = &mesh;
-  const auto layout = encode_simd_wide(8, tree_of(mesh, Recipe::parse(recipe)), contents);
-  fmt::print("{}: {} triangles, {}, {:.1f} bytes per triangle\n", file, mesh.triangles.size(), recipe,
-             static_cast<double>(layout->bytes()) / static_cast<double>(mesh.triangles.size()));
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    fmt::print("[{}] {}: {} triangles, {}, {:.1f} bytes per triangle\n", i, file, mesh.triangles.size(),
+               structures[i].recipe().text(),
+               static_cast<double>(structures[i].report().bytes) / static_cast<double>(mesh.triangles.size()));
+  }
   for (const RaySet& set : sets) {
     std::vector<Contestant> contestants = embree_contestants(embree, t);
-    add_ours(contestants, "wide8", layout, hits, blocked);
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      add_ours(contestants, fmt::format("[{}]", i), structures[i], hits, blocked);
+      print_counts(i, structures[i], set);
+    }
     measure(contestants, set, repeats);
   }
   embree.clear();

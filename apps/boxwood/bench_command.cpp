@@ -10,6 +10,7 @@
 #include "console.h"
 #include "exit_code.h"
 #include "measure/compare.h"
+#include "peer_report.h"
 #include "recipe/stage.h"
 #include "report/comparison_text.h"
 #include "report/json.h"
@@ -26,6 +27,7 @@ struct BenchOptions {
   std::string peer;    ///< "embree", or empty for none
   bool quick = false;  ///< small scenes and few repeats
   bool huge = false;   ///< also build 28 million triangles
+  std::string scenes;  ///< folder of the scenes for the ratios to a peer; empty: see peer_scenes()
 };
 
 bool has_embree() {
@@ -61,10 +63,8 @@ std::vector<BuildBench> bench_all_builds(const BenchOptions& options, bool peers
   return benches;
 }
 
-/// All presets on usual rays. With a peer, once against each of its better builds.
-std::vector<Comparison> bench_tracing(const BenchOptions& options, bool peers) {
-  std::vector<std::string> references = {presets().front().name};
-  if (peers) references = {"embree(quality=medium)", "embree(quality=high)"};
+/// All presets on usual rays.
+std::vector<Comparison> bench_tracing(const BenchOptions& options) {
   const std::uint32_t side = options.quick ? 64 : 512;
   std::vector<Comparison> comparisons;
   for (const char* path : {options.quick ? "generate:terrain(size=100)" : "generate:terrain(size=708)",
@@ -75,20 +75,44 @@ std::vector<Comparison> bench_tracing(const BenchOptions& options, bool peers) {
     view.camera = scene.cameras.front();
     view.width = view.height = side;
     const std::vector<RaySet> ray_sets = make_ray_sets(scene, build(scene), view, kinds);
-    for (const std::string& reference : references) {
-      std::vector<Recipe> recipes = {Recipe::parse(reference)};
-      for (const Preset& preset : presets()) {
-        if (preset.name != reference) recipes.push_back(Recipe::parse(preset.name));
-      }
-      CompareSettings settings;
-      settings.repeats = options.quick ? 3 : 11;
-      settings.build_repeats = 1;
-      settings.threads = options.common.threads;
-      ProgressBar bar(stop_requested());
-      comparisons.push_back(compare(scene, recipes, ray_sets, settings, &bar));
-    }
+    std::vector<Recipe> recipes;
+    for (const Preset& preset : presets()) recipes.push_back(Recipe::parse(preset.name));
+    CompareSettings settings;
+    settings.repeats = options.quick ? 3 : 11;
+    settings.build_repeats = 1;
+    settings.threads = options.common.threads;
+    ProgressBar bar(stop_requested());
+    comparisons.push_back(compare(scene, recipes, ray_sets, settings, &bar));
   }
   return comparisons;
+}
+
+/// Ratios to Embree on one thread and on all.
+std::vector<PeerBench> bench_peer(const BenchOptions& options) {
+  PeerBenchSettings settings;
+  settings.scenes = peer_scenes(options.scenes, options.quick);
+  if (options.quick) settings.repeats = 3, settings.build_repeats = 3, settings.side = 32, settings.most_rays = 1024;
+  std::vector<PeerBench> out;
+  for (const unsigned threads : {1u, 0u}) {
+    settings.threads = threads;
+    ProgressBar bar(stop_requested());
+    out.push_back(bench_against_embree(settings, bar));
+  }
+  return out;
+}
+
+int report_peer(const BenchOptions& options) {
+  const std::vector<PeerBench> benches = bench_peer(options);
+  if (!options.common.json) {
+    for (const PeerBench& bench : benches) print(fmt::format("{}\n", peer_text(bench)));
+    print("Ratios are speeds over the peer's in the same round: above 1, boxwood is faster.\n");
+    return exit_done;
+  }
+  Json document = peer_json(benches.front());
+  document["peer"] = options.peer;
+  document["all_threads"] = peer_json(benches.back());
+  print_json(document);
+  return exit_done;
 }
 
 std::string build_text(const BuildBench& bench) {
@@ -128,12 +152,13 @@ int run_bench(const BenchOptions& options) {
   if (!options.peer.empty() && !peers) {
     complain("Embree was not found when boxwood was compiled, so there are no ratios to it; install libembree-dev");
   }
+  if (peers && !options.huge) return report_peer(options);
   const std::vector<BuildBench> builds = bench_all_builds(options, peers);
   if (!options.common.json) {
     for (const BuildBench& bench : builds) print(build_text(bench));
     print("Ratios are speeds over the peer's in the same round: above 1, boxwood is faster.\n\n");
   }
-  const std::vector<Comparison> tracing = bench_tracing(options, peers);
+  const std::vector<Comparison> tracing = bench_tracing(options);
   if (!options.common.json) {
     for (const Comparison& comparison : tracing) print(fmt::format("Tracing {}\n", comparison_text(comparison)));
     return exit_done;
@@ -152,6 +177,8 @@ void add_bench(CommandSet& commands) {
   Command command = commands.add("bench", "Measure the project's own speed: building, memory, tracing",
                                  [options] { return run_bench(*options); });
   command.choice("--peer", options->peer, {"embree"}, "NAME", "Library to measure against in the same run");
+  command.text("--scenes", options->scenes, "DIR",
+               "Folder of the scenes for --peer; without, BOXWOOD_SCENES in the environment, or generated ones");
   command.flag("--quick", options->quick, "Smaller scenes, fewer repeats");
   command.flag("--huge", options->huge, "Also build 28 million triangles");
   add_common(command, options->common);

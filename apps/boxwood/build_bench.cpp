@@ -8,8 +8,27 @@
 namespace boxwood::cli {
 namespace {
 
-/// What build() times, on a clock of our choice: from triangles to a structure that can be traced.
-double build_once(const Scene& scene, const Recipe& recipe, Clock clock) {
+std::vector<NamedContestant> contestants_of(const Scene& scene, const std::vector<std::string>& recipes,
+                                            unsigned threads) {
+  std::vector<NamedContestant> out;
+  for (const std::string& text : recipes) {
+    const Recipe recipe = Recipe::parse(text);
+    out.push_back({recipe.text(), [&scene, recipe, threads] {
+                     return run_in_arena(threads, [&] { return build_seconds(scene, recipe, clock_for(threads)); });
+                   }});
+  }
+  return out;
+}
+
+Estimate ns_per_triangle(const std::vector<double>& seconds, double triangles) {
+  std::vector<double> samples;
+  for (const double value : seconds) samples.push_back(value * 1e9 / triangles);
+  return estimate_median(samples);
+}
+
+}  // namespace
+
+double build_seconds(const Scene& scene, const Recipe& recipe, Clock clock) {
   const double begin = now(clock);
   std::shared_ptr<const Layout> layout;
   if (is_peer(recipe)) {
@@ -24,26 +43,6 @@ double build_once(const Scene& scene, const Recipe& recipe, Clock clock) {
   }
   return now(clock) - begin;
 }
-
-std::vector<NamedContestant> contestants_of(const Scene& scene, const std::vector<std::string>& recipes,
-                                            unsigned threads) {
-  std::vector<NamedContestant> out;
-  for (const std::string& text : recipes) {
-    const Recipe recipe = Recipe::parse(text);
-    out.push_back({recipe.text(), [&scene, recipe, threads] {
-                     return run_in_arena(threads, [&] { return build_once(scene, recipe, clock_for(threads)); });
-                   }});
-  }
-  return out;
-}
-
-Estimate ns_per_triangle(const std::vector<double>& seconds, double triangles) {
-  std::vector<double> samples;
-  for (const double value : seconds) samples.push_back(value * 1e9 / triangles);
-  return estimate_median(samples);
-}
-
-}  // namespace
 
 BuildBench bench_builds(const BuildBenchSettings& settings, ProgressSink& progress) {
   const Scene scene = load_scene(settings.scene);

@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "boxwood/recipe.h"
+#include "boxwood/scene.h"
+#include "measure/clock.h"
 #include "measure/statistics.h"
 #include "peak_memory.h"
 #include "render/progress.h"
@@ -32,6 +35,10 @@ struct BuildBenchSettings {
   std::uint32_t repeats = 5;
   unsigned threads = 1;
 };
+
+/// What build() times, on a clock of our choice: from triangles to a structure that can be traced. The scene has one
+/// mesh; the recipe may be a peer's.
+double build_seconds(const Scene& scene, const Recipe& recipe, Clock clock);
 
 /// Contestants take turns; each builds the scene's first mesh. Time as clock_for() says. Peak memory is taken in a
 /// round of its own.

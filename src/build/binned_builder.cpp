@@ -33,23 +33,31 @@ template <class Pricing>
 Cuts cut_at_bins(const ReferenceSet& set, const Centroids& centroids, const BinnedOptions& options, Pricing pricing) {
   if (set.size() <= options.exact) return sweep(set, centroids, options, pricing);
   Cuts cuts;
-  if (is_leaf_by_count(set, options) || !pricing.begin(set.bounds)) return cuts;
+  if (is_leaf_by_count(set, options) || !pricing.begin(set)) return cuts;
 
   // Bin along all axes in one pass.
   const BinMapping mapping(set.centers, options.bins);
   const AxisRange axes = axes_of(set, options);
   Bins bins(axes.first, axes.last, options.bins);
   fill(bins, set, centroids, mapping);
+  if constexpr (Pricing::is_model) bins.count_seen(set.references, centroids, mapping);
 
   // Find the best axis.
-  BestCuts best;
-  for (int axis = axes.first; axis <= axes.last; ++axis) {
-    const BestCuts found = best_cuts(bins.row(axis), pricing, options.bins, options.k);
-    if (!(found.price < best.price)) continue;
-    best = found;
-    cuts.axis = static_cast<std::uint32_t>(axis);
-  }
-  if (best.count == 0 || is_leaf_by_cost(set, options, best.price)) return cuts;
+  const auto search = [&](const auto& by) {
+    BestAxis best;
+    for (int axis = axes.first; axis <= axes.last; ++axis) {
+      const BestCuts found = best_cuts(bins.row(axis), by, options.bins, options.k);
+      if (found.price < best.cuts.price) best = {found, static_cast<std::uint32_t>(axis)};
+    }
+    return best;
+  };
+  const auto row = [&](const BestAxis& found) { return bins.row(static_cast<int>(found.axis)); };
+  const auto parts = [&](const BestAxis& found) { return parts_of(row(found), found.cuts, options.bins); };
+  const auto [best, best_axis] = search_with_rival(set, pricing, search, parts);
+  cuts.axis = best_axis;
+  if (best.count == 0) return cuts;
+  const float price = price_for_leaf_test(set, options, bins.row(static_cast<int>(best_axis)), options.bins, best);
+  if (is_leaf_by_cost(set, options, price)) return cuts;
 
   // Move the references into their parts.
   const auto axis = static_cast<int>(cuts.axis);
@@ -78,9 +86,10 @@ Stage binned_stage() {
   add_cost_options(options);
   options.integer("exact", &BinnedOptions::exact, 0, 64,
                   "sets of at most this many references are swept, which is faster there and never worse");
-  return builder_stage<BinnedOptions>("binned", "the cheapest border between equal bins",
-                                      "Wald 2007; wide BVH study; PCA study; SAH alternatives study", options,
-                                      build_binned, [](const BinnedOptions& chosen) { return chosen.k; });
+  return with_cost<BinnedOptions>(
+      builder_stage<BinnedOptions>("binned", "the cheapest border between equal bins",
+                                   "Wald 2007; wide BVH study; PCA study; SAH alternatives study", options,
+                                   build_binned, [](const BinnedOptions& chosen) { return chosen.k; }));
 }
 
 }  // namespace boxwood

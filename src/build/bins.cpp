@@ -77,6 +77,17 @@ void Bins::add(const Bins& other) {
   }
 }
 
+void Bins::count_seen(std::span<const Reference> references, const Centroids& centroids, const BinMapping& mapping) {
+  seen_.assign(total(), 0);
+  for (const Reference& reference : references) {
+    if (reference.seen == 0) continue;
+    const Int4 bin = mapping(centroids(reference));
+    for (int axis = first_axis_; axis <= last_axis_; ++axis) {
+      ++seen_[static_cast<std::size_t>(axis - first_axis_) * bins_ + static_cast<std::size_t>(bin[axis])];
+    }
+  }
+}
+
 void fill(Bins& bins, const ReferenceSet& set, const Centroids& centroids, const BinMapping& mapping) {
   if (set.size() < parallel_size) {
     bins.add(set.references, centroids, mapping);

@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "build/scratch.h"
 #include "build/top_down.h"
@@ -38,6 +39,8 @@ class BinMapping {
 class Bins {
  public:
   Bins(int first_axis, int last_axis, std::uint32_t bins);
+  /// Also counts which references are seen; for models.
+  void count_seen(std::span<const Reference> references, const Centroids& centroids, const BinMapping& mapping);
 
   void add(std::span<const Reference> references, const Centroids& centroids, const BinMapping& mapping);
   void add(const Bins& other);
@@ -50,12 +53,14 @@ class Bins {
   struct Row {
     const Box4* boxes;
     const std::uint32_t* counts;
+    const std::uint32_t* seen_counts;
     const Box4& box(std::uint32_t i) const { return boxes[i]; }
     std::uint32_t count(std::uint32_t i) const { return counts[i]; }
+    std::uint32_t seen(std::uint32_t i) const { return seen_counts ? seen_counts[i] : 0; }
   };
   Row row(int axis) const {
     const std::size_t first = static_cast<std::size_t>(axis - first_axis_) * bins_;
-    return {&boxes_[first], &counts_[first]};
+    return {&boxes_[first], &counts_[first], seen_.empty() ? nullptr : &seen_[first]};
   }
 
  private:
@@ -66,6 +71,7 @@ class Bins {
   std::uint32_t bins_;
   Scratch<Box4, bins_on_stack> boxes_;
   Scratch<std::uint32_t, bins_on_stack> counts_;
+  std::vector<std::uint32_t> seen_;
 };
 
 /// Bins a whole set, on several threads when it is large.

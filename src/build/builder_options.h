@@ -4,7 +4,6 @@
 
 #include "build/centroids.h"
 #include "build/top_down.h"
-#include "cost/registry.h"
 #include "options/options.h"
 
 namespace boxwood {

@@ -26,6 +26,7 @@ struct Pending {
   std::uint32_t begin, end;
   std::uint32_t slot, below;
   std::uint32_t depth;
+  std::shared_ptr<const CostModel::Memory> parent_memory;
 };
 
 struct Bounds {
@@ -59,16 +60,18 @@ Bounds bounds_of(std::span<const Reference> references, const Centroids& centroi
 
 class TopDown {
  public:
-  TopDown(BuildInput& input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split)
+  TopDown(BuildInput& input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split,
+          const CostModel* model)
       : references_(input.references),
         centroids_(centroids),
         leaf_limit_(leaf_limit),
         split_(split),
+        model_(model),
         slots_(std::make_unique_for_overwrite<Tree::Node[]>(2 * references_.size() - 1)) {}
 
   void run() {
     const auto size = static_cast<std::uint32_t>(references_.size());
-    tasks_.run_and_wait([&] { build({0, size, 0, 1, 0}); });
+    tasks_.run_and_wait([&] { build({0, size, 0, 1, 0, nullptr}); });
   }
 
   std::unique_ptr<Tree::Node[]> take_slots() { return std::move(slots_); }
@@ -78,7 +81,7 @@ class TopDown {
   void build(const Pending& root) {
     std::vector<Pending> stack{root};
     while (!stack.empty()) {
-      const Pending pending = stack.back();
+      const Pending pending = std::move(stack.back());
       stack.pop_back();
       if (pending.end - pending.begin > task_size && pending.slot != root.slot) {
         tasks_.run([this, pending] { build(pending); });
@@ -91,7 +94,9 @@ class TopDown {
   void build_node(const Pending& pending, std::vector<Pending>& stack) {
     const std::span<Reference> references = references_.subspan(pending.begin, pending.end - pending.begin);
     const Bounds bounds = bounds_of(references, centroids_);
-    const ReferenceSet set{references, bounds.boxes, bounds.centers};
+    std::shared_ptr<const CostModel::Memory> memory;
+    if (model_) memory = model_->enter(bounds.boxes.box(), pending.parent_memory.get());
+    const ReferenceSet set{references, bounds.boxes, bounds.centers, memory.get()};
     const Cuts cuts = cuts_of(set, pending.depth);
 
     Tree::Node node;
@@ -104,7 +109,7 @@ class TopDown {
       node.first = pending.below;
       node.count = (cuts.count + 1) & Tree::max_count;
       node.axis = cuts.axis & 3;
-      push_children(pending, cuts, stack);
+      push_children(pending, cuts, memory, stack);
     }
     slots_[pending.slot] = node;
   }
@@ -116,11 +121,12 @@ class TopDown {
     return cuts;
   }
 
-  static void push_children(const Pending& parent, const Cuts& cuts, std::vector<Pending>& stack) {
+  static void push_children(const Pending& parent, const Cuts& cuts,
+                            const std::shared_ptr<const CostModel::Memory>& memory, std::vector<Pending>& stack) {
     std::uint32_t begin = parent.begin, below = parent.below + cuts.count + 1;
     for (std::uint32_t i = 0; i <= cuts.count; ++i) {
       const std::uint32_t end = i < cuts.count ? parent.begin + cuts.at[i] : parent.end;
-      stack.push_back({begin, end, parent.below + i, below, parent.depth + 1});
+      stack.push_back({begin, end, parent.below + i, below, parent.depth + 1, memory});
       below += 2 * (end - begin) - 2;
       begin = end;
     }
@@ -130,6 +136,7 @@ class TopDown {
   const Centroids& centroids_;
   std::uint32_t leaf_limit_;
   const Splitter& split_;
+  const CostModel* model_;
   std::unique_ptr<Tree::Node[]> slots_;
   tbb::task_group tasks_;
 };
@@ -152,13 +159,14 @@ std::uint32_t compact(Tree::Node* slots) {
 
 }  // namespace
 
-Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split) {
+Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split,
+                    const CostModel* model) {
   Tree tree;
   if (input.references.empty()) return tree;
   if (input.references.size() > (1u << 31)) {
     throw Error("a top-down build takes at most 2^31 primitives; split the scene into instances");
   }
-  TopDown engine(input, centroids, leaf_limit, split);
+  TopDown engine(input, centroids, leaf_limit, split, model);
   engine.run();
 
   tree.references.resize(input.references.size());

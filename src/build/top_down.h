@@ -9,6 +9,7 @@
 #include "build/build_input.h"
 #include "build/centroids.h"
 #include "build/float4.h"
+#include "cost/cost_model.h"
 #include "tree/tree.h"
 
 namespace boxwood {
@@ -18,8 +19,9 @@ inline constexpr std::uint32_t max_children = 16;
 /// What a splitter is asked to divide: at least two references, theirs to permute.
 struct ReferenceSet {
   std::span<Reference> references;
-  Box4 bounds;   ///< of their boxes
-  Box4 centers;  ///< of their doubled centroids
+  Box4 bounds;                                ///< of their boxes
+  Box4 centers;                               ///< of their doubled centroids
+  const CostModel::Memory* memory = nullptr;  ///< what the cost model remembers of this set's node
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references.size()); }
 };
@@ -45,6 +47,8 @@ using Splitter = std::function<Cuts(const ReferenceSet& set)>;
 /// not depend on them: a subtree over references [b, e) owns node slots given by b and e. O(n log n) for splitters of
 /// O(n). At most 100 bytes per reference with the
 /// input, and about 120 while the finished nodes are copied out of their slots. Throws Error above 2^31 references.
-Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split);
+/// `model` is told of every node before it is split; null: there is none.
+Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split,
+                    const CostModel* model = nullptr);
 
 }  // namespace boxwood

@@ -80,6 +80,16 @@ class KernelLayout final : public Layout {
     return (counters ? kernels_.any_counted : kernels_.any)(level_, ray, counters);
   }
   std::size_t bytes() const override { return level_.nodes.bytes() + level_.leaves.bytes(); }
+  std::vector<LayoutFact> facts() const override {
+    std::size_t topology = level_.nodes.bytes();
+    if constexpr (requires { level_.nodes.topology_bytes(); }) topology = level_.nodes.topology_bytes();
+    std::vector<LayoutFact> facts = {{"topology_bytes", static_cast<double>(topology)},
+                                     {"leaf_bytes", static_cast<double>(bytes() - topology)}};
+    if constexpr (requires { level_.nodes.facts(); }) {
+      for (LayoutFact& fact : level_.nodes.facts()) facts.push_back(std::move(fact));
+    }
+    return facts;
+  }
 
  private:
   Level<Nodes, Leaves> level_;

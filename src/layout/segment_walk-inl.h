@@ -58,55 +58,63 @@ struct SegmentWalk {
     return !link.fixed_order && link.axis != Tree::mixed_axis && ray.negative[link.axis];
   }
 
-  /// Tests the children of an inner node and puts those that are met on the stack, the first to visit on top.
-  HWY_INLINE PendingPart* open(std::uint32_t slot, const Link& link, Part part, PendingPart* top) {
+  /// Tests both children of a binary node; those that are met, the first to visit first, and how many they are.
+  HWY_INLINE std::uint32_t open_two(std::uint32_t slot, const Link& link, Part part, PendingPart (&met)[2]) {
+    visit.counting.open(2);
+    // By distance means: where neither is entered first, by the ray's sign on the split axis.
+    const std::uint32_t first = descending(link) ? 1 : 0;
+    const Part a = tester.test(slot, link, first, part, visit.cutoff);
+    const Part b = tester.test(slot, link, 1 - first, part, visit.cutoff);
+    const bool swap = order == ChildOrder::near && b.from < a.from && !link.fixed_order;
+    const PendingPart near_child{tester.slot_of(slot, link, swap ? 1 - first : first), swap ? b : a};
+    const PendingPart far_child{tester.slot_of(slot, link, swap ? first : 1 - first), swap ? a : b};
+    const bool near_met = !near_child.part.empty(), far_met = !far_child.part.empty();
+    if (near_met) visit.counting.enter_child();
+    if (far_met) visit.counting.enter_child();
+    met[0] = near_met ? near_child : far_child;
+    met[1] = far_child;
+    return static_cast<std::uint32_t>(near_met) + static_cast<std::uint32_t>(far_met);
+  }
+
+  /// Tests all children of a node and puts those that are met on the stack, the first to visit on top.
+  HWY_INLINE PendingPart* open_all(std::uint32_t slot, const Link& link, Part part, PendingPart* top) {
     visit.counting.open(tester.children(link));
-    if constexpr (Tester::binary) {
-      // By distance means: where neither is entered first, by the ray's sign on the split axis.
-      const std::uint32_t first = descending(link) ? 1 : 0;
-      const Part a = tester.test(slot, link, first, part, visit.cutoff);
-      const Part b = tester.test(slot, link, 1 - first, part, visit.cutoff);
-      const bool swap = order == ChildOrder::near && b.from < a.from && !link.fixed_order;
-      const std::uint32_t last = swap ? first : 1 - first;
-      const Part& last_part = swap ? a : b;
-      const Part& first_part = swap ? b : a;
-      if (!last_part.empty()) {
-        visit.counting.enter_child();
-        *top++ = {tester.slot_of(slot, link, last), last_part};
-      }
-      if (!first_part.empty()) {
-        visit.counting.enter_child();
-        *top++ = {tester.slot_of(slot, link, 1 - last), first_part};
-      }
-      return top;
-    } else {
-      Part parts[Tester::most_children];
-      const std::uint32_t met = tester.test_all(slot, link, part, visit.cutoff, parts);
-      const bool down = order == ChildOrder::axis && descending(link);
-      PendingPart* const base = top;
-      for (std::uint32_t left = met; left != 0;) {
-        // The last to visit first.
-        const auto child = static_cast<std::uint32_t>(down ? std::countr_zero(left) : 31 - std::countl_zero(left));
-        left &= ~(1u << child);
-        visit.counting.enter_child();
-        const PendingPart next{tester.slot_of(slot, link, child), parts[child]};
-        PendingPart* place = top++;
-        if constexpr (order == ChildOrder::near) {
-          for (; place != base && place[-1].part.from < next.part.from && !link.fixed_order; --place)
-            *place = place[-1];
+    Part parts[Tester::most_children];
+    const std::uint32_t met = tester.test_all(slot, link, part, visit.cutoff, parts);
+    const bool down = order == ChildOrder::axis && descending(link);
+    PendingPart* const base = top;
+    for (std::uint32_t left = met; left != 0;) {
+      // The last to visit first.
+      const auto child = static_cast<std::uint32_t>(down ? std::countr_zero(left) : 31 - std::countl_zero(left));
+      left &= ~(1u << child);
+      visit.counting.enter_child();
+      const PendingPart next{tester.slot_of(slot, link, child), parts[child]};
+      PendingPart* place = top++;
+      if constexpr (order == ChildOrder::near) {
+        for (; place != base && place[-1].part.from < next.part.from && !link.fixed_order; --place) {
+          *place = place[-1];
         }
-        *place = next;
       }
-      return top;
+      *place = next;
     }
+    return top;
   }
 
   HWY_INLINE bool iterate(std::uint32_t slot, Link link, Part part, PendingPart* const stack) {
     for (PendingPart* top = stack;;) {
       if (link.leaf) {
         if (visit(link, leaves)) return true;
+      } else if constexpr (Tester::binary) {
+        PendingPart met[2];
+        if (const std::uint32_t count = open_two(slot, link, part, met)) {
+          if (count == 2) *top++ = met[1];
+          slot = met[0].slot;
+          part = met[0].part;
+          link = tester.link(slot);
+          continue;
+        }
       } else {
-        top = open(slot, link, part, top);
+        top = open_all(slot, link, part, top);
       }
       do {
         if (top == stack) return false;
@@ -120,10 +128,19 @@ struct SegmentWalk {
 
   bool recurse(std::uint32_t slot, const Link& link, Part part, PendingPart* const stack) {
     if (link.leaf) return visit(link, leaves);
-    for (PendingPart* top = open(slot, link, part, stack); top != stack;) {
-      const PendingPart next = *--top;
-      if (next.part.from > visit.cutoff) continue;
-      if (recurse(next.slot, tester.link(next.slot), next.part, top)) return true;
+    if constexpr (Tester::binary) {
+      PendingPart met[2];
+      const std::uint32_t count = open_two(slot, link, part, met);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (met[i].part.from > visit.cutoff) continue;
+        if (recurse(met[i].slot, tester.link(met[i].slot), met[i].part, stack)) return true;
+      }
+    } else {
+      for (PendingPart* top = open_all(slot, link, part, stack); top != stack;) {
+        const PendingPart next = *--top;
+        if (next.part.from > visit.cutoff) continue;
+        if (recurse(next.slot, tester.link(next.slot), next.part, top)) return true;
+      }
     }
     return false;
   }

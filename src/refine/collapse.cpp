@@ -9,6 +9,7 @@
 
 #include "boxwood/error.h"
 #include "refine/stages.h"
+#include "tree/assemble.h"
 
 namespace boxwood {
 namespace {
@@ -34,74 +35,88 @@ std::uint32_t arity(const CollapseOptions& options) {
   return 1u << std::min(merged_levels(options), 26u);
 }
 
-/// The children that a node gets, in the order of its leaves.
-class Lifted {
+/// Writes one node of the wide tree. One per thread.
+class Lifter {
  public:
-  Lifted(const Tree& tree, std::uint32_t node)
-      : tree_(tree), axis_(tree.nodes[node].axis), fixed_order_(tree.nodes[node].fixed_order) {
-    append_children(node);
-  }
+  Lifter(const Tree& tree, const CollapseOptions& options) : tree_(tree), options_(options) {}
 
-  const std::vector<std::uint32_t>& nodes() const { return nodes_; }
-  /// The axis along which all of them ascend, if they do.
-  std::uint32_t axis() const { return axis_; }
-  bool fixed_order() const { return fixed_order_; }
-
-  /// Opens the largest inner child that fits, until there are k children.
-  void open_by_area(std::uint32_t k) {
-    for (;;) {
-      std::size_t largest = nodes_.size();
-      float largest_area = -1;
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const Tree::Node& child = tree_.nodes[nodes_[i]];
-        if (child.is_leaf() || nodes_.size() - 1 + child.count > k) continue;
-        if (const float area = half_area(child.bounds); area > largest_area) {
-          largest = i;
-          largest_area = area;
-        }
-      }
-      if (largest == nodes_.size()) return;
-      open(largest);
+  void operator()(std::uint32_t number, Tree::Node& node, std::vector<std::uint32_t>& children,
+                  std::vector<std::uint32_t>& references) {
+    node = tree_.nodes[number];
+    if (node.is_leaf()) {
+      const auto first = tree_.references.begin() + node.first;
+      node.first = static_cast<std::uint32_t>(references.size());
+      references.insert(references.end(), first, first + node.count);
+      return;
     }
-  }
-
-  /// Opens every inner child once.
-  void open_level() {
-    std::vector<std::uint32_t> opened;
-    opened.swap(nodes_);
-    for (const std::uint32_t node : opened) {
-      if (tree_.nodes[node].is_leaf()) {
-        nodes_.push_back(node);
-      } else {
-        note_opened(tree_.nodes[node]);
-        append_children(node);
-      }
+    append_children(node, children);
+    if (options_.method == Method::area) {
+      open_by_area(node, children);
+    } else {
+      for (std::uint32_t level = 1; level < merged_levels(options_); ++level) open_level(node, children);
     }
   }
 
  private:
-  void append_children(std::uint32_t node) {
-    const Tree::Node& parent = tree_.nodes[node];
-    for (std::uint32_t i = 0; i < parent.count; ++i) nodes_.push_back(parent.first + i);
+  /// Opens the largest inner child that fits, until there are k children.
+  void open_by_area(Tree::Node& node, std::vector<std::uint32_t>& children) {
+    areas_.clear();
+    for (const std::uint32_t child : children) areas_.push_back(area_of(child));
+    for (;;) {
+      std::size_t largest = children.size();
+      float largest_area = -1;
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        if (areas_[i] <= largest_area || children.size() - 1 + tree_.nodes[children[i]].count > options_.k) continue;
+        largest = i;
+        largest_area = areas_[i];
+      }
+      if (largest == children.size()) return;
+      const Tree::Node& opened = tree_.nodes[children[largest]];
+      note_opened(opened, node);
+      const auto place = static_cast<std::ptrdiff_t>(largest);
+      children.insert(children.begin() + place, opened.count - 1, 0);
+      areas_.insert(areas_.begin() + place, opened.count - 1, 0);
+      for (std::uint32_t i = 0; i < opened.count; ++i) {
+        children[largest + i] = opened.first + i;
+        areas_[largest + i] = area_of(opened.first + i);
+      }
+    }
   }
 
-  void open(std::size_t place) {
-    const Tree::Node& opened = tree_.nodes[nodes_[place]];
-    note_opened(opened);
-    nodes_[place] = opened.first;
-    nodes_.insert(nodes_.begin() + static_cast<std::ptrdiff_t>(place) + 1, opened.count - 1, 0);
-    for (std::uint32_t i = 1; i < opened.count; ++i) nodes_[place + i] = opened.first + i;
+  /// Opens every inner child once.
+  void open_level(Tree::Node& node, std::vector<std::uint32_t>& children) {
+    unopened_.swap(children);
+    children.clear();
+    for (const std::uint32_t child : unopened_) {
+      if (tree_.nodes[child].is_leaf()) {
+        children.push_back(child);
+      } else {
+        note_opened(tree_.nodes[child], node);
+        append_children(tree_.nodes[child], children);
+      }
+    }
   }
 
-  void note_opened(const Tree::Node& opened) {
-    if (opened.axis != axis_) axis_ = Tree::mixed_axis;
-    if (!opened.fixed_order) fixed_order_ = false;
+  /// Of an inner node; -1, less than any, of a leaf.
+  float area_of(std::uint32_t child) const {
+    const Tree::Node& node = tree_.nodes[child];
+    return node.is_leaf() ? -1 : half_area(node.bounds);
+  }
+
+  static void append_children(const Tree::Node& parent, std::vector<std::uint32_t>& children) {
+    for (std::uint32_t i = 0; i < parent.count; ++i) children.push_back(parent.first + i);
+  }
+
+  /// All children ascend along an axis, and are to be visited as stored, only if those of every opened node do.
+  static void note_opened(const Tree::Node& opened, Tree::Node& node) {
+    if (opened.axis != node.axis) node.axis = Tree::mixed_axis;
+    if (!opened.fixed_order) node.fixed_order = 0;
   }
 
   const Tree& tree_;
-  std::vector<std::uint32_t> nodes_;
-  std::uint32_t axis_;
-  bool fixed_order_;
+  CollapseOptions options_;
+  std::vector<float> areas_;
+  std::vector<std::uint32_t> unopened_;
 };
 
 /// Throws when the options make no sense, or not for this tree.
@@ -123,40 +138,14 @@ void check(const CollapseOptions& options, const Tree& tree) {
   }
 }
 
-/// O(n k) time for method area, O(n log k) else; beside the old tree only the new nodes are held.
+/// O(n k) time for method area, O(n log k) else; parallel. The old tree and the new one are held side by side.
 Tree collapse(const CollapseOptions& options, Tree tree) {
   check(options, tree);
   if (tree.empty()) return tree;
-  std::vector<Tree::Node> nodes{tree.nodes[0]};
-  nodes.reserve(tree.nodes.size());
-  struct Pending {
-    std::uint32_t from, to;  // a node of the old tree, its place in the new one
-  };
-  std::vector<Pending> stack{{0, 0}};
-  while (!stack.empty()) {
-    const Pending pending = stack.back();
-    stack.pop_back();
-    if (tree.nodes[pending.from].is_leaf()) continue;
-    Lifted lifted(tree, pending.from);
-    if (options.method == Method::area) {
-      lifted.open_by_area(options.k);
-    } else {
-      for (std::uint32_t level = 1; level < merged_levels(options); ++level) lifted.open_level();
-    }
-    const auto first = static_cast<std::uint32_t>(nodes.size());
-    Tree::Node& node = nodes[pending.to];
-    node.first = first;
-    node.count = static_cast<std::uint32_t>(lifted.nodes().size()) & Tree::max_count;
-    node.axis = lifted.axis() & 3;
-    node.fixed_order = lifted.fixed_order();
-    for (const std::uint32_t child : lifted.nodes()) nodes.push_back(tree.nodes[child]);
-    for (std::size_t i = lifted.nodes().size(); i-- > 0;) {
-      stack.push_back({lifted.nodes()[i], first + static_cast<std::uint32_t>(i)});
-    }
-  }
-  tree.nodes = std::move(nodes);
-  tree.nodes.shrink_to_fit();
-  return tree;
+  Tree out =
+      assemble(std::uint32_t{0}, tree.nodes.size(), tree.references.size(), [&] { return Lifter(tree, options); });
+  out.clipped_leaves = tree.clipped_leaves;
+  return out;
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "structure/mesh_geometry.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_scan.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "math/clip.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 namespace {
@@ -37,24 +38,27 @@ std::vector<Reference> MeshGeometry::references() const {
   constexpr std::size_t chunk = 1 << 14;
   const std::size_t count = mesh_.triangles.size();
   const std::size_t chunks = (count + chunk - 1) / chunk;
-  // Two passes: count per chunk, then write each chunk at its place, so that the order never depends on the threads.
-  std::vector<std::size_t> begin(chunks + 1, 0);
+  // Each chunk from the place it has when all triangles are usable. Mostly they are; else the gaps are closed after.
+  std::vector<Reference> out;
+  reserve_large(out, count);
+  out.resize(count);
+  std::vector<std::size_t> usable(chunks);
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-      begin[c + 1] += is_usable(mesh_, static_cast<std::uint32_t>(i)) ? 1 : 0;
-    }
-  });
-  for (std::size_t c = 0; c < chunks; ++c) begin[c + 1] += begin[c];
-  std::vector<Reference> out(begin[chunks]);
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    std::size_t next = begin[c];
+    std::size_t next = c * chunk;
     for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
       const auto primitive = static_cast<std::uint32_t>(i);
       if (!is_usable(mesh_, primitive)) continue;
       const Box box = box_of(mesh_, mesh_.triangles[i]);
       out[next++] = {box.lower, primitive, box.upper, 0};
     }
+    usable[c] = next - c * chunk;
   });
+  std::size_t end = 0;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    if (end != c * chunk) std::copy_n(out.data() + c * chunk, usable[c], out.data() + end);
+    end += usable[c];
+  }
+  out.resize(end);
   return out;
 }
 
@@ -66,14 +70,20 @@ Box usable_bounds(const Mesh& mesh) {
   return bounds;
 }
 
-std::vector<Reference> instance_references(const Scene& scene, std::span<const Box> mesh_boxes) {
-  std::vector<Reference> out;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
+std::vector<Box> instance_boxes(const Scene& scene) {
+  std::vector<Box> mesh_boxes, boxes;
+  for (const Mesh& mesh : scene.meshes) mesh_boxes.push_back(usable_bounds(mesh));
+  for (const Instance& instance : scene.instances) {
     const Box& box = mesh_boxes[instance.mesh];
-    if (box.empty()) continue;
-    const Box world = instance.object_to_world.box(box);
-    out.push_back({world.lower, i, world.upper, 0});
+    boxes.push_back(box.empty() ? box : instance.object_to_world.box(box));
+  }
+  return boxes;
+}
+
+std::vector<Reference> instance_references(std::span<const Box> boxes) {
+  std::vector<Reference> out;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (!boxes[i].empty()) out.push_back({boxes[i].lower, i, boxes[i].upper});
   }
   return out;
 }

@@ -47,6 +47,8 @@ HWY_INLINE bool within_limits(const Ray& ray) {
 
 /// `reach`: largest absolute coordinate of anything the ray can meet. `gain` >= 1 multiplies the error bound; levels
 /// whose leaves map the ray by a transform need more than 1 (see instance_error.h).
+/// Both forms give the same bits.
+#if HWY_TARGET == HWY_SCALAR
 HWY_INLINE PreparedRay prepare(const Ray& ray, float reach, float gain = 1) {
   PreparedRay out;
   out.valid = within_limits(ray);
@@ -73,12 +75,85 @@ HWY_INLINE PreparedRay prepare(const Ray& ray, float reach, float gain = 1) {
     out.negative[axis] = std::signbit(d[axis]) ? 1 : 0;
     out.inverse[axis] = 1.0f / (out.negative[axis] ? -size : size);
     const float center = out.origin[axis] * out.inverse[axis];
-    const float slack = bound / size;
+    const float slack = bound * std::fabs(out.inverse[axis]);
     out.near_offset[axis] = center + slack;
     out.far_offset[axis] = center - slack;
   }
   return out;
 }
+#else
+/// The axes in the order of a ray's own space by comparisons of the direction's sizes: x > y, x > z, y > z, lowest bit
+/// first. The dominant axis is last.
+alignas(16) inline constexpr std::int32_t ray_axes[8][4] = {{0, 1, 2, 3}, {0, 1, 2, 3}, {0, 1, 2, 3}, {1, 2, 0, 3},
+                                                            {2, 0, 1, 3}, {0, 1, 2, 3}, {2, 0, 1, 3}, {1, 2, 0, 3}};
+
+alignas(16) inline constexpr std::int32_t compare_left[4] = {0, 0, 1, 3}, compare_right[4] = {1, 2, 2, 3};
+
+using FourFloats = hwy::HWY_NAMESPACE::FixedTag<float, 4>;
+
+HWY_INLINE std::uint32_t bits_of_four(hwy::HWY_NAMESPACE::Mask<FourFloats> mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return static_cast<std::uint32_t>(mask.raw) & 0xf;
+#else
+  std::uint8_t bits[8];
+  hwy::HWY_NAMESPACE::StoreMaskBits(FourFloats(), mask, bits);
+  return bits[0];
+#endif
+}
+
+/// Without branches: which axis of incoherent rays is the longest cannot be predicted.
+HWY_INLINE PreparedRay prepare(const Ray& ray, float reach, float gain = 1) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const FourFloats d;
+  const hn::RebindToSigned<FourFloats> di;
+  PreparedRay out;
+  // The fourth lanes hold t_near and t_far, and are ignored.
+  const auto origin = hn::LoadU(d, &ray.origin.x), direction = hn::LoadU(d, &ray.direction.x);
+  const auto size = hn::Abs(direction), distance = hn::Abs(origin);
+  const auto limit = hn::Set(d, largest_coordinate);
+  const std::uint32_t longer = bits_of_four(hn::Gt(hn::TableLookupLanes(size, hn::SetTableIndices(d, compare_left)),
+                                                   hn::TableLookupLanes(size, hn::SetTableIndices(d, compare_right))));
+  const std::int32_t* axes = ray_axes[longer & 7];
+  out.kx = axes[0], out.ky = axes[1], out.kz = axes[2];
+  const float dominant = (&ray.direction.x)[out.kz];
+  const float largest = std::fabs(dominant);
+  const std::uint32_t within = bits_of_four(hn::Le(size, limit)) & bits_of_four(hn::Le(distance, limit)) & 7;
+  out.valid = (static_cast<int>(within == 7) & static_cast<int>(largest >= 1 / largest_coordinate) &
+               static_cast<int>(ray.t_near <= ray.t_far)) != 0;
+  out.t_near = ray.t_near;
+  out.t_far = ray.t_far;
+
+  // {x, y, 1} / z in the ray's own axes.
+  alignas(16) float shear[4];
+  const auto own = hn::TableLookupLanes(direction, hn::SetTableIndices(d, axes));
+  const auto third = hn::RebindMask(d, hn::Eq(hn::Iota(di, 0), hn::Set(di, 2)));
+  hn::Store(hn::Div(hn::IfThenElse(third, hn::Set(d, 1.0f), own), hn::Set(d, dominant)), d, shear);
+  out.shear_x = shear[0], out.shear_y = shear[1], out.scale_z = shear[2];
+
+  // Below 2^-26 the triangle test's products leave the range of normal floats; its errors are then absolute.
+  float magnitude = 0x1p-26f;
+  const float far_out[3] = {std::fabs(ray.origin.x) + reach, std::fabs(ray.origin.y) + reach,
+                            std::fabs(ray.origin.z) + reach};
+  for (const float value : far_out) magnitude = value > magnitude ? value : magnitude;
+  const auto bound = hn::Set(d, magnitude * gain * 0x1p-19f);
+  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::CopySign(hn::Max(size, hn::Set(d, largest * 1e-9f)), direction));
+  const auto center = hn::Mul(origin, inverse), slack = hn::Mul(bound, hn::Abs(inverse));
+  alignas(16) float values[4][4];
+  hn::Store(origin, d, values[0]);
+  hn::Store(inverse, d, values[1]);
+  hn::Store(hn::Add(center, slack), d, values[2]);
+  hn::Store(hn::Sub(center, slack), d, values[3]);
+  const std::uint32_t negative = bits_of_four(hn::RebindMask(d, hn::Lt(hn::BitCast(di, direction), hn::Zero(di))));
+  for (int axis = 0; axis < 3; ++axis) {
+    out.origin[axis] = values[0][axis];
+    out.inverse[axis] = values[1][axis];
+    out.near_offset[axis] = values[2][axis];
+    out.far_offset[axis] = values[3][axis];
+    out.negative[axis] = static_cast<int>(negative >> axis & 1);
+  }
+  return out;
+}
+#endif
 
 /// Largest absolute coordinate of a box; 0 for an empty one.
 HWY_INLINE float reach_of(const Box& box) {

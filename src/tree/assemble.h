@@ -43,8 +43,13 @@ class TreeAssembler {
     const Job top_job = {&top, {}, 0, 0, top.nodes.size(), top.references.size()};
     std::vector<Job> all(open.size());
     tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { all[j] = sinks_.local().write(open[j].item); });
-    Tree tree =
-        is_one_piece(top_job, all) ? Tree{std::move(top.nodes), std::move(top.references)} : put_together(top_job, all);
+    Tree tree;
+    if (is_one_piece(top_job, all)) {
+      tree.nodes = std::move(top.nodes);
+      tree.references = std::move(top.references);
+    } else {
+      tree = put_together(top_job, all);
+    }
     for (std::size_t j = 0; j < all.size(); ++j) tree.nodes[open[j].place] = all[j].root;
     return tree;
   }

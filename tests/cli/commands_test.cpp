@@ -1,6 +1,7 @@
 // What the commands do when all is well.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <set>
 
@@ -26,6 +27,22 @@ void expect_estimate(const json& value, std::uint64_t n) {
   EXPECT_LE(value.at("low"), value.at("median"));
   EXPECT_LE(value.at("median"), value.at("high"));
   EXPECT_EQ(value.at("n"), n);
+}
+
+TEST(Inspect, Json_TellsWhatTheLayoutTellsOfItself) {
+  const json layout =
+      run_for_json({"inspect", "generate:sphere(30)", "-a", "octree > bit-octree(chunk=32)"}).at("layout");
+  EXPECT_EQ(layout.at("topology_bytes"), 32 * layout.at("chunks").get<double>());
+  EXPECT_GT(layout.at("chunk_fill"), 0);
+  EXPECT_GE(layout.at("primitive_multiplication"), 1);
+}
+
+TEST(Render, HeatmapScale_IsTheOneAskedFor) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("boxwood-heat-{}.png", getpid());
+  const json document = run_for_json({"render", "generate:cube(4)", "--size", "16x16", "--integrator", "heatmap",
+                                      "--heatmap-scale", "77", "-o", file.string()});
+  EXPECT_EQ(document.at("heatmap_scale"), 77);
+  fs::remove(file);
 }
 
 TEST(Compare, Json_HasTheDocumentedFields) {
@@ -241,6 +258,23 @@ TEST(Bench, Quick_MeasuresBuildsMemoryAndTracing) {
   for (const json& row : document["build"][0].at("rows")) expect_estimate(row.at("ns_per_triangle"), 3);
   ASSERT_GE(document.at("trace").size(), 1u);
   EXPECT_GE(document["trace"][0].at("rows").size(), 3u);
+}
+
+TEST(Bench, AgainstEmbree_GivesTheRatioOfEveryColumn) {
+  const json document = run_for_json({"bench", "--quick", "--peer", "embree"});
+  if (document.at("peer").is_null()) GTEST_SKIP() << "compiled without Embree";
+  for (const json& bench : {document, document.at("all_threads")}) {
+    for (const char* column :
+         {"closest.primary.batch", "closest.diffuse.batch", "closest.random.batch", "any.shadow.batch", "any.ao.batch",
+          "closest.primary.single", "closest.diffuse.single", "closest.random.single", "any.shadow.single",
+          "any.ao.single", "build.fast", "build.default", "build.best"}) {
+      expect_estimate(bench.at("geometric_means").at(column), 3);
+    }
+    for (const json& scene : bench.at("scenes")) {
+      EXPECT_GT(scene.at("bytes_per_triangle").at("default").at("median").get<double>(), 0);
+      EXPECT_LE(scene.at("columns").at("closest.diffuse.batch").at("mismatches").get<int>(), 10);
+    }
+  }
 }
 
 }  // namespace

@@ -109,6 +109,46 @@ TEST(SlabPlanes, SurfaceRatioIsOneForASingleNodeAndMoreBelow) {
   EXPECT_GT(slab_surface_ratio(tree_over(test::soup(100, 0.2f, 1))), 1.5);
 }
 
+/// What single slabs guarantee of every node.
+std::vector<Box> regions_of(const Tree& tree, std::size_t& unchanged) {
+  std::vector<Box> regions(tree.nodes.size());
+  regions[0] = tree.nodes[0].bounds;
+  unchanged = 1;  // the root's plane
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const Tree::Node& node = tree.nodes[i];
+    for (std::uint32_t c = node.first; !node.is_leaf() && c < node.first + node.count; ++c) {
+      regions[c] = regions[i];
+      cut_by_best_side(tree.nodes[c].bounds, regions[c]);
+      unchanged += regions[c] == regions[i] ? 1 : 0;
+    }
+  }
+  return regions;
+}
+
+TEST(SlabPlanes, OnlyTheRootsPlaneCutsNothing) {
+  for (const Scene& scene : {test::soup(300, 0.2f, 7), test::sphere(8), test::torus(8)}) {
+    std::size_t unchanged = 0;
+    regions_of(tree_over(scene), unchanged);
+    EXPECT_EQ(unchanged, 1u);
+  }
+}
+
+TEST(SlabPlanes, SurfaceRatioIsNoArtefactOfRounding) {
+  const Tree tree = tree_over(test::sphere(16));
+  std::size_t unchanged = 0;
+  const std::vector<Box> regions = regions_of(tree, unchanged);
+  const auto surface = [](const Box& box) {
+    const long double x = static_cast<long double>(box.upper.x) - box.lower.x;
+    const long double y = static_cast<long double>(box.upper.y) - box.lower.y;
+    const long double z = static_cast<long double>(box.upper.z) - box.lower.z;
+    return x * y + y * z + z * x;
+  };
+  long double sum = 0;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) sum += surface(regions[i]) / surface(tree.nodes[i].bounds);
+  const auto exact = static_cast<double>(sum / static_cast<long double>(tree.nodes.size()));
+  EXPECT_NEAR(slab_surface_ratio(tree) / exact, 1, 1e-5);
+}
+
 TEST(SlabPlanes, AtLeastHalfOfBothChildrensSidesLieInTheParents) {
   for (const Scene& scene : {test::soup(300, 0.2f, 7), test::sphere(8)}) {
     const Tree tree = tree_over(scene);

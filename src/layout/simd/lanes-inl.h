@@ -24,6 +24,10 @@ constexpr int lanes_of = static_cast<int>(hn::MaxLanes(D()));
 /// One bit per lane, lane 0 lowest.
 template <class D, class Mask>
 HWY_INLINE std::uint32_t bits_of(D d, Mask mask) {
+#if HWY_TARGET <= HWY_AVX3
+  (void)d;
+  return static_cast<std::uint32_t>(mask.raw);
+#endif
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   if constexpr (lanes_of<D> <= 8) return bytes[0];

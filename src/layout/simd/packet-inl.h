@@ -1,6 +1,6 @@
 // Coherent rays in groups of 64: inner nodes are tested once for the whole group, by intervals that hold all its rays
 // (after Overbeck, Ramamoorthi, Mark 2008, "Large Ray Packets for Real-time Whitted Ray Tracing"); at a leaf, registers
-// of eight rays are tested against its box, and those that meet it against its triangles.
+// of rays are tested against its box, and those that meet it against its triangles.
 #if defined(BOXWOOD_LAYOUT_SIMD_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_SIMD_PACKET_INL_H
 #undef BOXWOOD_LAYOUT_SIMD_PACKET_INL_H
@@ -19,7 +19,7 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// A child of a node, met at `entry` or later by every ray of the group; planes[8 * row] are its box.
+/// A child of a node, met at `entry` or later by every ray of the group; planes[N * row] are its box.
 struct PostponedBox {
   float entry;
   WideReference child;
@@ -27,13 +27,14 @@ struct PostponedBox {
 };
 
 /// The intervals of a group in every lane.
+template <class D>
 struct GroupSlabs {
-  using V = hn::Vec<hn::FixedTag<float, 8>>;
+  using V = hn::Vec<D>;
   V near_origin[3], far_origin[3], least_inverse[3], largest_inverse[3], slack[3], t_near;
   int near_row[3];
 
   explicit GroupSlabs(const RayGroup& group) {
-    const hn::FixedTag<float, 8> d;
+    const D d;
     for (int axis = 0; axis < 3; ++axis) {
       const bool negative = group.negative[axis] != 0;
       near_origin[axis] = hn::Set(d, negative ? group.least_origin[axis] : group.largest_origin[axis]);
@@ -48,13 +49,15 @@ struct GroupSlabs {
 };
 
 /// Which children some ray of the group may meet before t_limit, and from where on.
-HWY_INLINE std::uint32_t hit_children(const WideNode<8>& node, const GroupSlabs& slabs, float t_limit, float* entries) {
-  const hn::FixedTag<float, 8> d;
+template <int N, class D>
+HWY_INLINE std::uint32_t hit_children(const WideNode<N>& node, int begin, const GroupSlabs<D>& slabs, float t_limit,
+                                      float* entries) {
+  const D d;
   auto entry = slabs.t_near;
   auto exit = hn::Set(d, t_limit);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto near_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis]]), slabs.near_origin[axis]);
-    const auto far_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis] ^ 1]), slabs.far_origin[axis]);
+    const auto near_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis]] + begin), slabs.near_origin[axis]);
+    const auto far_plane = hn::Sub(hn::Load(d, node.planes[slabs.near_row[axis] ^ 1] + begin), slabs.far_origin[axis]);
     const auto from =
         hn::Min(hn::Mul(near_plane, slabs.least_inverse[axis]), hn::Mul(near_plane, slabs.largest_inverse[axis]));
     const auto to =
@@ -62,17 +65,18 @@ HWY_INLINE std::uint32_t hit_children(const WideNode<8>& node, const GroupSlabs&
     entry = hn::Max(hn::Sub(from, slabs.slack[axis]), entry);
     exit = hn::Min(hn::Add(to, slabs.slack[axis]), exit);
   }
-  hn::Store(entry, d, entries);
-  return bits_of(d, hn::Le(entry, exit));
+  hn::Store(entry, d, entries + begin);
+  return bits_of(d, hn::Le(entry, exit)) << begin;
 }
 
-/// Which registers of eight rays have one that meets the box; bit g for register g.
+/// Which registers of rays have one that meets the box; bit g for register g.
+template <int N>
 HWY_INLINE std::uint32_t registers_in_box(const RayGroup& group, const float* planes) {
-  const hn::FixedTag<float, 8> d;
+  const GroupLanes d;
   hn::Vec<decltype(d)> near_plane[3], far_plane[3];
   for (int axis = 0; axis < 3; ++axis) {
-    near_plane[axis] = hn::Set(d, planes[8 * (2 * axis + group.negative[axis])]);
-    far_plane[axis] = hn::Set(d, planes[8 * (2 * axis + 1 - group.negative[axis])]);
+    near_plane[axis] = hn::Set(d, planes[N * (2 * axis + group.negative[axis])]);
+    far_plane[axis] = hn::Set(d, planes[N * (2 * axis + 1 - group.negative[axis])]);
   }
   std::uint32_t registers = 0;
   for (int g = 0; g < group_vectors; ++g) {
@@ -88,9 +92,9 @@ HWY_INLINE std::uint32_t registers_in_box(const RayGroup& group, const float* pl
   return registers;
 }
 
-/// One triangle against eight rays: hits within the range of t of each.
+/// One triangle against a register of rays: hits within the range of t of each.
 template <class D>
-HWY_INLINE TriangleHits<D> hit_by_eight(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, int g) {
+HWY_INLINE TriangleHits<D> hit_by_register(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, int g) {
   const auto of = [&](const GroupFloats& values) { return hn::Load(d, values.lanes[g]); };
   const ShearedRays<D> rays{of(group.origin[group.kx]), of(group.origin[group.ky]), of(group.origin[group.kz]),
                             of(group.shear_x),          of(group.shear_y),          of(group.scale_z)};
@@ -102,7 +106,7 @@ HWY_INLINE TriangleHits<D> hit_by_eight(D d, const Vertices<D> (&triangle)[3], c
 /// Calls visit(triangle, primitive) for each triangle of a run of blocks, its vertices in every lane.
 template <int L, class Visit>
 HWY_INLINE void for_each_triangle(const LeafBlock<L>* block, const RayGroup& group, Visit visit) {
-  using D = hn::FixedTag<float, 8>;
+  using D = GroupLanes;
   const D d;
   bool more = true;
   for (; more; ++block) {
@@ -125,7 +129,7 @@ HWY_INLINE void for_each_triangle(const LeafBlock<L>* block, const RayGroup& gro
 /// Closest hits so far. A missing primitive counts as larger than any.
 struct GroupHits {
   GroupFloats t, v, w, determinant;
-  alignas(64) std::int32_t primitives[group_vectors][8];
+  alignas(64) std::int32_t primitives[group_vectors][group_lanes];
 
   GroupHits() {
     std::ranges::fill_n(&t.lanes[0][0], group_size, std::numeric_limits<float>::infinity());
@@ -136,14 +140,14 @@ struct GroupHits {
 /// True when a ray's limit came nearer.
 template <int L>
 HWY_INLINE bool closest_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group, GroupHits& best) {
-  const hn::FixedTag<float, 8> d;
-  const hn::FixedTag<std::int32_t, 8> di;
+  const GroupLanes d;
+  const hn::RebindToSigned<GroupLanes> di;
   bool nearer = false;
   for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t primitive) HWY_ATTR {
     const auto number = hn::Set(di, static_cast<std::int32_t>(primitive));
     for (std::uint32_t left = registers; left != 0; left &= left - 1) {
       const int g = std::countr_zero(left);
-      const auto hits = hit_by_eight(d, triangle, group, g);
+      const auto hits = hit_by_register(d, triangle, group, g);
       if (HWY_LIKELY(hn::AllFalse(d, hits.hit))) continue;
       const auto best_t = hn::Load(d, best.t.lanes[g]);
       const auto best_primitive = hn::Load(di, best.primitives[g]);
@@ -167,12 +171,12 @@ HWY_INLINE bool closest_in_leaf(const LeafBlock<L>* block, std::uint32_t registe
 /// A ray that is blocked gets a limit before its beginning and so meets nothing more. True when one was.
 template <int L>
 HWY_INLINE bool any_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group) {
-  const hn::FixedTag<float, 8> d;
+  const GroupLanes d;
   bool found = false;
   for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t) HWY_ATTR {
     for (std::uint32_t left = registers; left != 0; left &= left - 1) {
       const int g = std::countr_zero(left);
-      const auto hits = hit_by_eight(d, triangle, group, g);
+      const auto hits = hit_by_register(d, triangle, group, g);
       if (HWY_LIKELY(hn::AllFalse(d, hits.hit))) continue;
       const auto done = hn::Set(d, -std::numeric_limits<float>::infinity());
       hn::Store(hn::IfThenElse(hits.hit, done, hn::Load(d, group.t_limit.lanes[g])), d, group.t_limit.lanes[g]);
@@ -189,18 +193,21 @@ inline constexpr int group_budget = 640;
 /// Walks the tree for a group, nearest children first; at each leaf that a ray may meet calls
 /// at_leaf(blocks, registers), which returns true when limits changed. False when the budget ran out: the rays lie so
 /// far apart, for triangles of this size, that they share little, and the walk is not complete.
-template <int L, class AtLeaf>
+template <int N, int L, class AtLeaf>
 HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf at_leaf) {
-  const GroupSlabs slabs(group);
+  using D = Floats<N>;
+  const GroupSlabs<D> slabs(group);
   PostponedBox stack[wide_stack_limit];
   PostponedBox* top = stack;
   float t_limit = largest_of(group.t_limit);
   WideReference current = view.root;
-  alignas(64) float entries[8];
+  alignas(64) float entries[N];
   for (int budget = group_budget; budget > 0; --budget) {
-    const WideNode<8>& node = *reinterpret_cast<const WideNode<8>*>(view.base + wide_offset(current));
+    const WideNode<N>& node = *reinterpret_cast<const WideNode<N>*>(view.base + wide_offset(current));
+    std::uint32_t bits = 0;
+    for (int begin = 0; begin < N; begin += lanes_of<D>) bits |= hit_children(node, begin, slabs, t_limit, entries);
     PostponedBox* const bottom = top;
-    for (std::uint32_t bits = hit_children(node, slabs, t_limit, entries); bits != 0; bits &= bits - 1) {
+    for (; bits != 0; bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
       const PostponedBox next{entries[lane], node.children[lane], &node.planes[0][lane]};
       PostponedBox* place = top++;
@@ -213,7 +220,7 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf a
       if (!(next.entry <= t_limit)) continue;
       current = next.child;
       if (!is_leaf(current)) break;
-      const std::uint32_t registers = registers_in_box(group, next.planes);
+      const std::uint32_t registers = registers_in_box<N>(group, next.planes);
       budget -= 2 + std::popcount(registers);
       if (registers == 0) continue;
       const auto* blocks = reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(current));
@@ -224,36 +231,37 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf a
 }
 
 /// False when the group is not worth it; nothing is written then.
-template <int L>
+template <int N, int L>
 HWY_NOINLINE bool closest_hits_of_group(const WideView& view, RayGroup& group, Hit* hits) {
-  const hn::FixedTag<float, 8> d;
+  const GroupLanes d;
   GroupHits best;
   const auto at_leaf = [&](const LeafBlock<L>* blocks, std::uint32_t registers)
                            HWY_ATTR { return closest_in_leaf(blocks, registers, group, best); };
-  if (!walk_group<L>(view, group, at_leaf)) return false;
+  if (!walk_group<N, L>(view, group, at_leaf)) return false;
   for (int g = 0; g < group_vectors; ++g) {
     const auto determinant = hn::Load(d, best.determinant.lanes[g]);
-    alignas(32) float u[8], v[8];
+    alignas(64) float u[group_lanes], v[group_lanes];
     hn::Store(hn::Div(hn::Load(d, best.v.lanes[g]), determinant), d, u);
     hn::Store(hn::Div(hn::Load(d, best.w.lanes[g]), determinant), d, v);
-    for (int lane = 0; lane < 8; ++lane) {
+    for (int lane = 0; lane < group_lanes; ++lane) {
       const std::int32_t primitive = best.primitives[g][lane];
-      hits[8 * g + lane] = primitive == std::numeric_limits<std::int32_t>::max()
-                               ? Hit{}
-                               : Hit{best.t.lanes[g][lane], u[lane], v[lane], static_cast<std::uint32_t>(primitive), 0};
+      hits[group_lanes * g + lane] =
+          primitive == std::numeric_limits<std::int32_t>::max()
+              ? Hit{}
+              : Hit{best.t.lanes[g][lane], u[lane], v[lane], static_cast<std::uint32_t>(primitive), 0};
     }
   }
   return true;
 }
 
 /// False when the group is not worth it; nothing is written then.
-template <int L>
+template <int N, int L>
 HWY_NOINLINE bool any_hits_of_group(const WideView& view, RayGroup& group, std::uint8_t* blocked) {
   const auto at_leaf = [&](const LeafBlock<L>* blocks, std::uint32_t registers)
                            HWY_ATTR { return any_in_leaf(blocks, registers, group); };
-  if (!walk_group<L>(view, group, at_leaf)) return false;
+  if (!walk_group<N, L>(view, group, at_leaf)) return false;
   for (std::size_t i = 0; i < group_size; ++i) {
-    blocked[i] = group.t_limit.lanes[i / 8][i % 8] < group.t_near.lanes[i / 8][i % 8] ? 1 : 0;
+    blocked[i] = (&group.t_limit.lanes[0][0])[i] < (&group.t_near.lanes[0][0])[i] ? 1 : 0;
   }
   return true;
 }

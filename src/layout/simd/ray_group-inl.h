@@ -19,12 +19,18 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-inline constexpr int group_vectors = 8;
 inline constexpr std::size_t group_size = 64;
+/// A register of the rays of a group.
+using GroupLanes = hn::CappedTag<float, 16>;
+inline constexpr int group_lanes = lanes_of<GroupLanes>;
+inline constexpr int group_vectors = static_cast<int>(group_size) / group_lanes;
 
 /// One value per ray of a group.
 struct alignas(64) GroupFloats {
-  float lanes[group_vectors][8];
+  float lanes[group_vectors][group_lanes];
+
+  /// Eight rays from the eighth part `part` on.
+  HWY_INLINE float* eight(int part) { return &lanes[0][0] + part * 8; }
 };
 
 /// The fields of PreparedRay for 64 rays that share the signs of their directions and their dominant axis, and the
@@ -64,21 +70,21 @@ HWY_INLINE bool looks_coherent(std::span<const Ray> rays) {
 }
 
 HWY_INLINE float least_of(const GroupFloats& values) {
-  const hn::FixedTag<float, 8> d;
+  const GroupLanes d;
   auto least = hn::Load(d, values.lanes[0]);
   for (int g = 1; g < group_vectors; ++g) least = hn::Min(least, hn::Load(d, values.lanes[g]));
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
 HWY_INLINE float largest_of(const GroupFloats& values) {
-  const hn::FixedTag<float, 8> d;
+  const GroupLanes d;
   auto largest = hn::Load(d, values.lanes[0]);
   for (int g = 1; g < group_vectors; ++g) largest = hn::Max(largest, hn::Load(d, values.lanes[g]));
   return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
 /// Eight rays, transposed and prepared. False when one of them is outside the limits of `Ray` or not of the class.
-HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int g, RayGroup& group) {
+HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int part, RayGroup& group) {
   const hn::FixedTag<float, 8> d;
   using V = hn::Vec<decltype(d)>;
   // Fields come as origin and direction of a ray in turn: {o0 d0 o1 d1 o2 d2 o3 d3}.
@@ -117,16 +123,16 @@ HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int g, RayGroup& gro
     const V inverse = hn::Div(one, hn::CopySignToAbs(size, direction[axis]));
     const V center = hn::Mul(origin[axis], inverse);
     const V slack = hn::Mul(bound, hn::Abs(inverse));
-    hn::Store(origin[axis], d, group.origin[axis].lanes[g]);
-    hn::Store(inverse, d, group.inverse[axis].lanes[g]);
-    hn::Store(hn::Add(center, slack), d, group.near_offset[axis].lanes[g]);
-    hn::Store(hn::Sub(center, slack), d, group.far_offset[axis].lanes[g]);
+    hn::Store(origin[axis], d, group.origin[axis].eight(part));
+    hn::Store(inverse, d, group.inverse[axis].eight(part));
+    hn::Store(hn::Add(center, slack), d, group.near_offset[axis].eight(part));
+    hn::Store(hn::Sub(center, slack), d, group.far_offset[axis].eight(part));
   }
-  hn::Store(t_near, d, group.t_near.lanes[g]);
-  hn::Store(t_far, d, group.t_limit.lanes[g]);
-  hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.lanes[g]);
-  hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.lanes[g]);
-  hn::Store(hn::Div(one, direction[group.kz]), d, group.scale_z.lanes[g]);
+  hn::Store(t_near, d, group.t_near.eight(part));
+  hn::Store(t_far, d, group.t_limit.eight(part));
+  hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.eight(part));
+  hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.eight(part));
+  hn::Store(hn::Div(one, direction[group.kz]), d, group.scale_z.eight(part));
   return true;
 }
 
@@ -139,8 +145,8 @@ HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, RayGroup& 
   group.ky = group.kx == 2 ? 0 : group.kx + 1;
   for (int axis = 0; axis < 3; ++axis)
     group.negative[axis] = std::signbit(first[static_cast<std::size_t>(axis)]) ? 1 : 0;
-  for (int g = 0; g < group_vectors; ++g) {
-    if (!prepare_eight(rays.data() + g * 8, reach, g, group)) return false;
+  for (int part = 0; part < 8; ++part) {
+    if (!prepare_eight(rays.data() + part * 8, reach, part, group)) return false;
   }
   if (largest_of(group.shear_x) - least_of(group.shear_x) > widest_spread) return false;
   if (largest_of(group.shear_y) - least_of(group.shear_y) > widest_spread) return false;

@@ -76,17 +76,18 @@ struct Postponed {
 
 /// Closest hit among the triangles of one block; true when it replaced `best`.
 template <int L>
-HWY_INLINE bool closest_in_block(const LeafBlock<L>& block, const PreparedRay& ray, float t_limit, Hit& best) {
+HWY_INLINE bool closest_in_block(const LeafBlock<L>& block, const TriangleRay& ray, float t_near, float t_limit,
+                                 Hit& best) {
   using D = Floats<L>;
   const D d;
   const ShearedRays<D> sheared = broadcast_sheared(d, ray);
   bool replaced = false;
   for (int begin = 0; begin < L; begin += lanes_of<D>) {
-    const Vertices<D> triangle[3] = {load_vertices(d, block, 0, begin, ray.kx, ray.ky, ray.kz),
-                                     load_vertices(d, block, 1, begin, ray.kx, ray.ky, ray.kz),
-                                     load_vertices(d, block, 2, begin, ray.kx, ray.ky, ray.kz)};
+    const Vertices<D> triangle[3] = {load_vertices(d, block, 0, begin, ray.axes),
+                                     load_vertices(d, block, 1, begin, ray.axes),
+                                     load_vertices(d, block, 2, begin, ray.axes)};
     const TriangleHits<D> hits = hit_triangles(d, triangle, sheared);
-    const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, ray.t_near)), hn::Le(hits.t, hn::Set(d, t_limit)));
+    const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, t_near)), hn::Le(hits.t, hn::Set(d, t_limit)));
     std::uint32_t bits = bits_of(d, hn::And(hits.hit, in_range));
     if (HWY_LIKELY(bits == 0)) continue;
     alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
@@ -106,16 +107,16 @@ HWY_INLINE bool closest_in_block(const LeafBlock<L>& block, const PreparedRay& r
 }
 
 template <int L>
-HWY_INLINE bool any_in_block(const LeafBlock<L>& block, const PreparedRay& ray) {
+HWY_INLINE bool any_in_block(const LeafBlock<L>& block, const TriangleRay& ray, float t_near, float t_far) {
   using D = Floats<L>;
   const D d;
   const ShearedRays<D> sheared = broadcast_sheared(d, ray);
   for (int begin = 0; begin < L; begin += lanes_of<D>) {
-    const Vertices<D> triangle[3] = {load_vertices(d, block, 0, begin, ray.kx, ray.ky, ray.kz),
-                                     load_vertices(d, block, 1, begin, ray.kx, ray.ky, ray.kz),
-                                     load_vertices(d, block, 2, begin, ray.kx, ray.ky, ray.kz)};
+    const Vertices<D> triangle[3] = {load_vertices(d, block, 0, begin, ray.axes),
+                                     load_vertices(d, block, 1, begin, ray.axes),
+                                     load_vertices(d, block, 2, begin, ray.axes)};
     const TriangleHits<D> hits = hit_triangles(d, triangle, sheared);
-    const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, ray.t_near)), hn::Le(hits.t, hn::Set(d, ray.t_far)));
+    const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, t_near)), hn::Le(hits.t, hn::Set(d, t_far)));
     if (bits_of(d, hn::And(hits.hit, in_range)) != 0) return true;
   }
   return false;
@@ -179,6 +180,7 @@ HWY_INLINE Hit closest_hit(const WideView& view, const PreparedRay& ray, Count c
   Hit best;
   if (!ray.valid) return best;
   const SlabRay<D> slabs = broadcast_slabs(D(), ray);
+  const TriangleRay leaf_ray = triangle_ray(ray);
   Postponed stack[wide_stack_limit];
   Postponed* top = stack;
   float t_limit = ray.t_far;
@@ -199,7 +201,7 @@ HWY_INLINE Hit closest_hit(const WideView& view, const PreparedRay& ray, Count c
       bool more = true;
       for (; more; ++block) {
         count.block(*block);
-        if (closest_in_block(*block, ray, t_limit, best)) t_limit = best.t;
+        if (closest_in_block(*block, leaf_ray, ray.t_near, t_limit, best)) t_limit = best.t;
         more = (block->primitives[0] & more_blocks) != 0;
       }
     }
@@ -216,6 +218,7 @@ HWY_INLINE bool any_hit(const WideView& view, const PreparedRay& ray, Count coun
   using D = Floats<N>;
   if (!ray.valid) return false;
   const SlabRay<D> slabs = broadcast_slabs(D(), ray);
+  const TriangleRay leaf_ray = triangle_ray(ray);
   WideReference stack[wide_stack_limit];
   WideReference* top = stack;
   WideReference current = view.root;
@@ -227,7 +230,7 @@ HWY_INLINE bool any_hit(const WideView& view, const PreparedRay& ray, Count coun
       bool more = true;
       for (; more; ++block) {
         count.block(*block);
-        if (any_in_block(*block, ray)) return true;
+        if (any_in_block(*block, leaf_ray, ray.t_near, ray.t_far)) return true;
         more = (block->primitives[0] & more_blocks) != 0;
       }
     } else {

@@ -22,10 +22,24 @@ struct ShearedRays {
   hn::Vec<D> shear_x, shear_y, scale_z;
 };
 
+/// The same of one ray, as it is kept.
+struct TriangleRay {
+  float origin[3], shear_x, shear_y, scale_z;
+  std::uint32_t axes[3];
+};
+
+HWY_INLINE TriangleRay triangle_ray(const PreparedRay& ray) {
+  return {{ray.origin[ray.kx], ray.origin[ray.ky], ray.origin[ray.kz]},
+          ray.shear_x,
+          ray.shear_y,
+          ray.scale_z,
+          {static_cast<std::uint32_t>(ray.kx), static_cast<std::uint32_t>(ray.ky), static_cast<std::uint32_t>(ray.kz)}};
+}
+
 template <class D>
-HWY_INLINE ShearedRays<D> broadcast_sheared(D d, const PreparedRay& ray) {
-  return {hn::Set(d, ray.origin[ray.kx]), hn::Set(d, ray.origin[ray.ky]), hn::Set(d, ray.origin[ray.kz]),
-          hn::Set(d, ray.shear_x),        hn::Set(d, ray.shear_y),        hn::Set(d, ray.scale_z)};
+HWY_INLINE ShearedRays<D> broadcast_sheared(D d, const TriangleRay& ray) {
+  return {hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]), hn::Set(d, ray.origin[2]),
+          hn::Set(d, ray.shear_x),   hn::Set(d, ray.shear_y),   hn::Set(d, ray.scale_z)};
 }
 
 /// One vertex per lane, in the ray's axis order.
@@ -71,9 +85,11 @@ HWY_INLINE TriangleHits<D> hit_triangles(D d, const Vertices<D> (&triangle)[3], 
 
 /// One vertex of a block's triangles from `begin` on, in the ray's axis order.
 template <class D, int L>
-HWY_INLINE Vertices<D> load_vertices(D d, const LeafBlock<L>& block, int vertex, int begin, int kx, int ky, int kz) {
+HWY_INLINE Vertices<D> load_vertices(D d, const LeafBlock<L>& block, int vertex, int begin,
+                                     const std::uint32_t (&axes)[3]) {
   const float(&planes)[3][L] = block.vertices[vertex];
-  return {hn::Load(d, planes[kx] + begin), hn::Load(d, planes[ky] + begin), hn::Load(d, planes[kz] + begin)};
+  return {hn::Load(d, planes[axes[0]] + begin), hn::Load(d, planes[axes[1]] + begin),
+          hn::Load(d, planes[axes[2]] + begin)};
 }
 
 }  // namespace HWY_NAMESPACE

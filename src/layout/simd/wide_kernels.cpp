@@ -9,6 +9,8 @@
 #include "layout/simd/batch-inl.h"
 #include "layout/simd/packet-inl.h"
 #include "layout/simd/single-inl.h"
+#include "layout/simd/steps16-inl.h"
+#include "layout/simd/steps8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood {
@@ -40,23 +42,48 @@ struct Single {
 /// Fewer rays than this do not fill the lists of rays in flight.
 inline constexpr std::size_t least_batch = 16;
 
+/// Rays in flight through nodes as `Steps` says.
+template <class Steps, int L>
+struct InFlight {
+  static void closest(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
+    if (rays.size() < least_batch) return Single<Steps::width, L>::closest_each(view, rays, hits);
+    alignas(64) std::byte memory[slot_memory];
+    if (view.out_of_cache)
+      ClosestBatch<Steps, L, true>(view, rays, hits, memory).run();
+    else
+      ClosestBatch<Steps, L, false>(view, rays, hits, memory).run();
+  }
+  static void any(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+    if (rays.size() < least_batch) return Single<Steps::width, L>::any_each(view, rays, blocked);
+    alignas(64) std::byte memory[slot_memory];
+    if (view.out_of_cache)
+      AnyBatch<Steps, L, true>(view, rays, blocked, memory).run();
+    else
+      AnyBatch<Steps, L, false>(view, rays, blocked, memory).run();
+  }
+};
+
 /// Coherent groups of 64 go as packets, all between them as rays in flight.
-template <int L>
+template <class Steps, int L>
 struct Batch {
   static void closest(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { return closest_hits_of_group<L>(view, group, hits.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) {
+          return closest_hits_of_group<Steps::width, L>(view, group, hits.data() + begin);
+        },
         [&](std::size_t begin, std::size_t size) {
-          closest_in_flight(view, rays.subspan(begin, size), hits.subspan(begin, size));
+          InFlight<Steps, L>::closest(view, rays.subspan(begin, size), hits.subspan(begin, size));
         });
   }
   static void any(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
     for_each_run(
         view, rays,
-        [&](RayGroup& group, std::size_t begin) { return any_hits_of_group<L>(view, group, blocked.data() + begin); },
+        [&](RayGroup& group, std::size_t begin) {
+          return any_hits_of_group<Steps::width, L>(view, group, blocked.data() + begin);
+        },
         [&](std::size_t begin, std::size_t size) {
-          any_in_flight(view, rays.subspan(begin, size), blocked.subspan(begin, size));
+          InFlight<Steps, L>::any(view, rays.subspan(begin, size), blocked.subspan(begin, size));
         });
   }
 
@@ -85,22 +112,6 @@ struct Batch {
     }
     if (done != rays.size()) on_run(done, rays.size() - done);
   }
-  static void closest_in_flight(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
-    if (rays.size() < least_batch) return Single<8, L>::closest_each(view, rays, hits);
-    alignas(64) std::byte memory[slot_memory];
-    if (view.out_of_cache)
-      ClosestBatch<L, true>(view, rays, hits, memory).run();
-    else
-      ClosestBatch<L, false>(view, rays, hits, memory).run();
-  }
-  static void any_in_flight(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    if (rays.size() < least_batch) return Single<8, L>::any_each(view, rays, blocked);
-    alignas(64) std::byte memory[slot_memory];
-    if (view.out_of_cache)
-      AnyBatch<L, true>(view, rays, blocked, memory).run();
-    else
-      AnyBatch<L, false>(view, rays, blocked, memory).run();
-  }
 };
 #endif
 
@@ -111,8 +122,14 @@ WideKernels kernels() {
                   Each::closest_counted, Each::any_counted};
 #if HWY_MAX_BYTES >= 32
   if constexpr (N == 8) {
-    out.closest_hits = Batch<L>::closest;
-    out.any_hits = Batch<L>::any;
+    out.closest_hits = Batch<Steps8, L>::closest;
+    out.any_hits = Batch<Steps8, L>::any;
+  }
+#endif
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (N == 16) {
+    out.closest_hits = Batch<Steps16, L>::closest;
+    out.any_hits = Batch<Steps16, L>::any;
   }
 #endif
   return out;

@@ -1,0 +1,143 @@
+// Where rays in flight live: slots of a ray's state with its stack, and lists of slots by what their rays need next.
+// Compiled once per instruction set that has eight lanes.
+#if defined(BOXWOOD_LAYOUT_SIMD_SLOTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_SLOTS_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_SLOTS_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_SLOTS_INL_H
+#endif
+
+#include <bit>
+#include <cstddef>
+
+#include "layout/simd/compress-inl.h"
+#include "layout/simd/triangles-inl.h"
+#include "layout/simd/wide_arena.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_MAX_BYTES >= 32
+
+/// Rays in flight of one call, and the memory for their slots: some live on the caller's stack.
+inline constexpr int most_in_flight = 64;
+inline constexpr std::size_t slot_memory = std::size_t{160} << 10;
+
+/// Entries read below the top of a stack or written above it at once.
+inline constexpr std::uint32_t stack_margin = 16;
+/// The bottom of every stack: below it are entries that are never reached.
+inline constexpr std::uint32_t stack_bottom = stack_margin;
+
+/// What a ray in flight needs, by cache line: what node steps read, what leaf steps read. Its stack follows: keys, then
+/// references. A key is the entry distance as an integer with the lane in its low bits.
+struct alignas(64) Slot {
+  float inverse[3], near_offset[3], far_offset[3];
+  float t_near;
+  float t_limit;              // t_far or the best hit so far
+  std::uint32_t near_row[3];  // byte offsets of the near planes in a node
+  WideReference next;
+  std::uint32_t top;  // entries on the stack
+
+  TriangleRay leaf;
+  Hit best;
+  std::uint32_t index;  // of the ray in the batch
+};
+static_assert(sizeof(Slot) == 128);
+
+HWY_INLINE std::int32_t* keys_of(Slot& slot) { return reinterpret_cast<std::int32_t*>(&slot + 1); }
+
+/// Slots side by side, each with room for a stack of `capacity` entries. The stride is an odd number of cache lines, so
+/// that slots do not compete for the same sets of the cache.
+class Slots {
+ public:
+  Slots(std::byte* memory, std::uint32_t stack) : memory_(memory) {
+    capacity_ = (stack + 2 * stack_margin + 15) & ~15u;
+    std::size_t lines = (sizeof(Slot) + capacity_ * std::size_t{8} + 63) / 64;
+    lines |= 1;
+    stride_ = lines * 64;
+  }
+  int in_flight() const {
+    const std::size_t fit = slot_memory / stride_;
+    return fit < most_in_flight ? static_cast<int>(fit) : most_in_flight;
+  }
+  HWY_INLINE Slot& at(std::uint32_t offset) const { return *reinterpret_cast<Slot*>(memory_ + offset); }
+  HWY_INLINE std::uint32_t offset(int index) const {
+    return static_cast<std::uint32_t>(stride_) * static_cast<std::uint32_t>(index);
+  }
+  HWY_INLINE std::int32_t* keys(Slot& slot) const { return keys_of(slot); }
+  HWY_INLINE WideReference* references(Slot& slot) const {
+    return reinterpret_cast<WideReference*>(keys_of(slot) + capacity_);
+  }
+
+ private:
+  std::byte* memory_;
+  std::uint32_t capacity_ = 0;
+  std::size_t stride_ = 0;
+};
+
+/// Offsets of slots. Room for whole vectors behind the end.
+struct SlotList {
+  alignas(64) std::uint32_t offsets[most_in_flight + 16];
+  std::uint32_t size = 0;
+
+  HWY_INLINE void add(std::uint32_t offset) { offsets[size++] = offset; }
+};
+
+HWY_INLINE void append(SlotList& from, SlotList& to) {
+  for (std::uint32_t i = 0; i < from.size; ++i) to.offsets[to.size + i] = from.offsets[i];
+  to.size += from.size;
+  from.size = 0;
+}
+
+/// Puts a ray in front of the root of a tree of nodes of N children.
+template <int N>
+HWY_INLINE void start(const Slots& slots, Slot& slot, const WideView& view, const PreparedRay& ray, std::size_t index) {
+  for (int axis = 0; axis < 3; ++axis) {
+    slot.inverse[axis] = ray.inverse[axis];
+    slot.near_offset[axis] = ray.near_offset[axis];
+    slot.far_offset[axis] = ray.far_offset[axis];
+    slot.near_row[axis] = static_cast<std::uint32_t>(2 * axis + ray.negative[axis]) * (4 * N);
+  }
+  slot.leaf = triangle_ray(ray);
+  slot.t_near = ray.t_near + 0.0f;  // never -0: keys and limits are compared as integers
+  slot.t_limit = ray.t_far + 0.0f;
+  slot.next = view.root;
+  slot.top = stack_bottom + 1;
+  slot.best = Hit{};
+  slot.index = static_cast<std::uint32_t>(index);
+  slots.references(slot)[stack_bottom] = wide_finished;
+  slots.keys(slot)[stack_bottom] = -1;
+}
+
+/// Sorts what a pass left in `list` into nodes, leaves and the rest by `next`, the references in the same order.
+/// `list` may be that of `nodes`, emptied: lanes are read before anything is written over them.
+HWY_INLINE void split(const std::uint32_t* list, std::uint32_t length, const std::uint32_t* next, SlotList& nodes,
+                      SlotList& leaves, SlotList& rest) {
+  const WidestWords d;
+  const hn::RebindToSigned<WidestWords> di;
+  constexpr int lanes = lanes_of<WidestWords>;
+  const int size = static_cast<int>(length);
+  std::uint32_t node_count = nodes.size, leaf_count = leaves.size, rest_count = rest.size;
+  const auto lane = hn::Iota(di, 0);
+  for (int i = 0; i < size; i += lanes) {
+    const auto offsets = hn::Load(d, list + i);
+    const auto references = hn::Load(d, next + i);
+    const auto in_use = hn::RebindMask(d, hn::Lt(lane, hn::Set(di, size - i)));
+    const auto leaf = hn::TestBit(references, hn::Set(d, 1));
+    const auto none = hn::Eq(hn::AndNot(hn::Set(d, 1), references), hn::Zero(d));
+    const auto is_node = hn::And(in_use, hn::Not(hn::Or(leaf, none)));
+    node_count += compress_store<WidestWords>(offsets, is_node, nodes.offsets + node_count);
+    leaf_count +=
+        compress_store<WidestWords>(offsets, hn::And(in_use, hn::AndNot(none, leaf)), leaves.offsets + leaf_count);
+    rest_count += compress_store<WidestWords>(offsets, hn::And(in_use, none), rest.offsets + rest_count);
+  }
+  nodes.size = node_count;
+  leaves.size = leaf_count;
+  rest.size = rest_count;
+}
+
+#endif  // HWY_MAX_BYTES >= 32
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,149 @@
+// Steps of rays in flight through nodes of sixteen children, for 512-bit registers: a register holds one ray's box
+// tests, or the order of two rays' children. Compiled for instruction sets that have such registers.
+#if defined(BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
+#endif
+
+#include "layout/simd/slots-inl.h"
+#include "layout/simd/sort8-inl.h"
+#include "layout/simd/wide_node.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_TARGET <= HWY_AVX3
+
+struct Steps16 {
+  static constexpr int width = 16;
+  using Floats16 = hn::FixedTag<float, 16>;
+  using Ints16 = hn::FixedTag<std::int32_t, 16>;
+  using Words16 = hn::FixedTag<std::uint32_t, 16>;
+  using Ints8 = hn::FixedTag<std::int32_t, 8>;
+  static constexpr std::size_t children_row = 6 * 64;
+
+  struct NodeHits {
+    hn::Vec<Floats16> entry;
+    hn::Mask<Floats16> hit;
+  };
+
+  static HWY_INLINE const std::byte* node_of(const WideView& view, const Slot& slot) {
+    return view.base + std::size_t{slot.next} * 16;
+  }
+
+  static HWY_INLINE NodeHits hit_node(const std::byte* node, const Slot& slot) {
+    const Floats16 d;
+    const auto plane = [&](std::uint32_t row, int axis, float offset) {
+      return hn::MulSub(hn::Load(d, reinterpret_cast<const float*>(node + row)), hn::Set(d, slot.inverse[axis]),
+                        hn::Set(d, offset));
+    };
+    const std::uint32_t x = slot.near_row[0], y = slot.near_row[1], z = slot.near_row[2];
+    const auto entry = hn::Max(hn::Max(plane(x, 0, slot.near_offset[0]), plane(y, 1, slot.near_offset[1])),
+                               hn::Max(plane(z, 2, slot.near_offset[2]), hn::Set(d, slot.t_near)));
+    const auto exit = hn::Min(hn::Min(plane(x ^ 64, 0, slot.far_offset[0]), plane(y ^ 64, 1, slot.far_offset[1])),
+                              hn::Min(plane(z ^ 64, 2, slot.far_offset[2]), hn::Set(d, slot.t_limit)));
+    return {entry, hn::Le(entry, exit)};
+  }
+
+  /// Keys are above 0, which marks lanes that hold none.
+  static HWY_INLINE std::int32_t key_limit(float t_limit) { return (std::bit_cast<std::int32_t>(t_limit) | 15) + 16; }
+
+  /// The children met, as keys in the first lanes; 0 in the others.
+  struct Met {
+    hn::Vec<Ints16> keys;
+    std::uint32_t count;
+  };
+  static HWY_INLINE Met meet(const std::byte* node, const Slot& slot) {
+    const Ints16 d;
+    const NodeHits hits = hit_node(node, slot);
+    const auto keys = hn::Add(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 16));
+    return {hn::Compress(keys, hn::RebindMask(d, hits.hit)),
+            static_cast<std::uint32_t>(std::popcount(bits_of(Floats16(), hits.hit)))};
+  }
+
+  static HWY_INLINE hn::Vec<Words16> children_of(const std::byte* node, hn::Vec<Ints16> keys) {
+    const Words16 d;
+    const auto children = hn::Load(d, reinterpret_cast<const std::uint32_t*>(node + children_row));
+    return hn::TableLookupLanes(children, hn::IndicesFromVec(d, hn::And(hn::BitCast(d, keys), hn::Set(d, 15))));
+  }
+
+  /// Takes the top after `count` children were pushed; nothing when none was.
+  static HWY_INLINE WideReference take(const WideReference* references, std::uint32_t top, std::uint32_t count,
+                                       Slot& slot) {
+    const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
+    slot.top = top + count - some;
+    return slot.next = references[slot.top] & (0u - some);
+  }
+
+  /// One ray that met more than eight children: rare, so that branches cost little.
+  static HWY_NOINLINE void push_many(const Slots& slots, const std::byte* node, hn::Vec<Ints16> met,
+                                     std::uint32_t count, Slot& slot) {
+    const Ints16 d;
+    alignas(64) std::int32_t keys[16];
+    alignas(64) WideReference children[16];
+    hn::Store(met, d, keys);
+    std::sort(keys, keys + count, std::greater<>());
+    hn::Store(children_of(node, hn::Load(d, keys)), Words16(), children);
+    std::copy_n(keys, count, slots.keys(slot) + slot.top);
+    std::copy_n(children, count, slots.references(slot) + slot.top);
+    take(slots.references(slot), slot.top, count, slot);
+  }
+
+  /// Two rays: each pushes all children it met, nearest on top, and takes the top. Both may be the same ray.
+  static HWY_INLINE void closest_pair(const Slots& slots, const WideView& view, Slot& a, Slot& b, std::uint32_t* next) {
+    const Ints16 d;
+    const Ints8 half;
+    const hn::Half<Words16> half_words;
+    const std::byte* node_a = node_of(view, a);
+    const std::byte* node_b = node_of(view, b);
+    const Met met_a = meet(node_a, a), met_b = meet(node_b, b);
+    if (HWY_UNLIKELY(std::max(met_a.count, met_b.count) > 8)) {
+      push_many(slots, node_a, met_a.keys, met_a.count, a);
+      if (&a != &b) push_many(slots, node_b, met_b.keys, met_b.count, b);
+      next[0] = a.next;
+      next[1] = b.next;
+      return;
+    }
+    const auto sorted =
+        sort8_descending(d, hn::Combine(d, hn::LowerHalf(half, met_b.keys), hn::LowerHalf(half, met_a.keys)));
+    const std::uint32_t top_a = a.top, top_b = b.top;
+    WideReference* references_a = slots.references(a);
+    WideReference* references_b = slots.references(b);
+    hn::StoreU(hn::LowerHalf(half, sorted), half, slots.keys(a) + top_a);
+    hn::StoreU(hn::UpperHalf(half, sorted), half, slots.keys(b) + top_b);
+    hn::StoreU(hn::LowerHalf(half_words, children_of(node_a, sorted)), half_words, references_a + top_a);
+    hn::StoreU(hn::UpperHalf(half_words, children_of(node_b, sorted)), half_words, references_b + top_b);
+    next[0] = take(references_a, top_a, met_a.count, a);
+    next[1] = take(references_b, top_b, met_b.count, b);
+  }
+
+  /// Any hit: pushes the children met in no order, and takes the top of the stack.
+  static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
+    const Words16 d;
+    const std::byte* node = node_of(view, slot);
+    const NodeHits hits = hit_node(node, slot);
+    const auto children = hn::Load(d, reinterpret_cast<const std::uint32_t*>(node + children_row));
+    WideReference* references = slots.references(slot);
+    slot.top += compress_store<Words16>(children, hn::RebindMask(d, hits.hit), references + slot.top) - 1;
+    return slot.next = references[slot.top];
+  }
+
+  static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
+    // An odd last ray is its own partner.
+    list.offsets[list.size] = list.offsets[list.size - 1];
+    for (std::uint32_t i = 0; i < list.size; i += 2) {
+      closest_pair(slots, view, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), next + i);
+    }
+  }
+  static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
+    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));
+  }
+};
+
+#endif  // HWY_TARGET <= HWY_AVX3
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
