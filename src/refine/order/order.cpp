@@ -41,9 +41,9 @@ Tree order(const OrderOptions& options, Tree tree, const RefineContext& context)
   if (options.by == Rule::srdh && !context.use) {
     throw UsageError("order(by=srdh) must know which rays will be traced and was told nothing; set BuildOptions::use");
   }
+  if (!is_binary(tree)) tree = relink(link(tree), tree);
   // Instances have no triangles of their own: what holds them keeps its order.
   if (tree.empty() || !context.geometry) return tree;
-  if (!is_binary(tree)) tree = relink(link(tree), tree);
   Orders orders = orders_of(options, tree, context);
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     Tree::Node& node = tree.nodes[i];

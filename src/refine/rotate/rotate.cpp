@@ -119,7 +119,8 @@ double mean_area(const LinkTree& tree) {
 
 Tree rotate(const RotateOptions& options, Tree tree) {
   if (tree.nodes.size() < 4) return tree;  // Fewer than three leaves: there is one tree only.
-  LinkTree links = link(tree), best = links;
+  const LinkTree start = link(tree);
+  LinkTree links = start, best = start;
   Rotator rotator(links);
   Random random(options.seed);
   const double hot = double{options.temperature} * mean_area(links);
@@ -133,7 +134,7 @@ Tree rotate(const RotateOptions& options, Tree tree) {
     if (hot * left == 0 && !(gained > 0)) break;
   }
   Tree rotated = relink(best, tree);
-  return statistics(rotated).max_depth <= deepest ? rotated : tree;
+  return statistics(rotated).max_depth <= deepest ? rotated : relink(start, tree);
 }
 
 }  // namespace
