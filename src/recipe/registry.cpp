@@ -12,11 +12,10 @@ namespace boxwood {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
-      median_stage(),   middle_stage(),   equal_stage(),
-      sweep_stage(),    binned_stage(),   ploc_stage(),
-      spatial_stage(),  collapse_stage(), optimal_collapse_stage(),
-      reinsert_stage(), binary_stage(),   wide_stage(),
-      trace_stage(),
+      median_stage(),           middle_stage(),   equal_stage(),   sweep_stage(),
+      binned_stage(),           ploc_stage(),     spatial_stage(), collapse_stage(),
+      optimal_collapse_stage(), reinsert_stage(), binary_stage(),  wide_stage(),
+      compressed_stage(),       trace_stage(),
 #ifdef BOXWOOD_EMBREE
       embree_stage(),
 #endif
