@@ -37,3 +37,20 @@ function(boxwood_room name)
   target_compile_features(boxwood_${name} PUBLIC cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY BOXWOOD_ROOMS boxwood_${name})
 endfunction()
+
+# boxwood_build_facts(TARGET): compiler, flags and commit, looked up at every build, compiled into TARGET.
+function(boxwood_build_facts target)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  set(flags "${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} -ffp-contract=off -fno-math-errno")
+  if(BOXWOOD_SANITIZE)
+    string(APPEND flags " -fsanitize=${BOXWOOD_SANITIZE}")
+  endif()
+  string(REGEX REPLACE " +" " " flags "${flags}")
+  set(facts ${PROJECT_BINARY_DIR}/build_facts.cpp)
+  add_custom_target(${target}_facts BYPRODUCTS ${facts} COMMAND ${CMAKE_COMMAND}
+    "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DOUT=${facts}" "-DFLAGS=${flags}" "-DEMBREE=${embree_VERSION}"
+    "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
+    -P ${PROJECT_SOURCE_DIR}/cmake/build_facts.cmake)
+  add_dependencies(${target} ${target}_facts)
+  target_sources(${target} PRIVATE ${facts})
+endfunction()

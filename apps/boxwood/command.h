@@ -64,7 +64,12 @@ void add_inspect(CommandSet& commands);
 void add_verify(CommandSet& commands);
 void add_cameras(CommandSet& commands);
 void add_bench(CommandSet& commands);
+void add_study(CommandSet& commands);
+void add_results(CommandSet& commands);
 void add_recipes(CommandSet& commands);
 void add_scenes(CommandSet& commands);
+void add_view_command(CommandSet& commands);
+void add_video(CommandSet& commands);
+void add_test(CommandSet& commands);
 
 }  // namespace boxwood::cli

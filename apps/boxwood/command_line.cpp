@@ -17,7 +17,21 @@ namespace {
 
 /// Every command, in the order of the help. A new one is a line here and its declaration in command.h.
 constexpr void (*all_commands[])(CommandSet&) = {
-    add_render, add_compare, add_inspect, add_verify, add_cameras, add_bench, add_recipes, add_scenes,
+    // clang-format off
+    add_render,
+    add_compare,
+    add_inspect,
+    add_verify,
+    add_view_command,
+    add_cameras,
+    add_video,
+    add_test,
+    add_bench,
+    add_study,
+    add_results,
+    add_recipes,
+    add_scenes,
+    // clang-format on
 };
 
 void show_default(CLI::Option* option, const std::string& shown_default) {

@@ -8,8 +8,10 @@
 #include "boxwood/ray_set.h"
 #include "command.h"
 #include "comparison_images.h"
+#include "comparison_metrics.h"
 #include "console.h"
 #include "exit_code.h"
+#include "expected_view.h"
 #include "measure/compare.h"
 #include "options/options.h"
 #include "options/suggest.h"
@@ -31,6 +33,7 @@ struct CompareOptions {
   std::uint32_t repeats = 11;
   std::string save_rays, load_rays;  ///< files
   std::string images;                ///< folder
+  bool metrics = false;
   bool force = false;
 };
 
@@ -90,16 +93,36 @@ std::vector<RaySet> ray_sets_of(const Scene& scene, const CompareOptions& option
   });
 }
 
-Comparison compare_scene(const Scene& scene, const std::vector<Recipe>& recipes, const CompareOptions& options) {
+/// What is there to build for: nothing when no one asks.
+std::optional<ExpectedUse> use_of(const Scene& scene, const std::vector<Recipe>& recipes,
+                                  const std::vector<RaySet>& ray_sets, const CompareOptions& options) {
+  if (!options.metrics && std::ranges::none_of(recipes, needs_use)) return {};
+  if (options.load_rays.empty()) return expected_view(scene, options.view, options.common.threads);
+  return expected_rays(scene, ray_sets, options.view, options.common.threads);
+}
+
+struct SceneComparison {
+  Comparison comparison;
+  std::optional<ComparisonMetrics> metrics;
+};
+
+SceneComparison compare_scene(const Scene& scene, const std::vector<Recipe>& recipes, const CompareOptions& options) {
   ProgressBar bar(stop_requested());
   bar.report(0, "tracing the rays to compare with");
   const std::vector<RaySet> ray_sets = ray_sets_of(scene, options);
   if (!options.save_rays.empty()) save_ray_sets(options.save_rays, ray_sets);
   check_interrupt();
+  const std::optional<ExpectedUse> use = use_of(scene, recipes, ray_sets, options);
   CompareSettings settings;
   settings.repeats = options.repeats;
   settings.threads = options.common.threads;
-  return compare(scene, recipes, ray_sets, settings, &bar);
+  settings.use = use ? &*use : nullptr;
+  SceneComparison result{compare(scene, recipes, ray_sets, settings, &bar), {}};
+  if (options.metrics) {
+    result.metrics = run_in_arena(options.common.threads,
+                                  [&] { return comparison_metrics(scene, recipes, *use, result.comparison); });
+  }
+  return result;
 }
 
 std::string images_text(const ComparisonImages& images) {
@@ -130,11 +153,16 @@ Json compare_and_show(const std::string& path, const std::vector<Recipe>& recipe
   const Scene scene = load_scene(path);
   const std::vector<std::string> notes = scene_notes(scene);
   for (const std::string& note : notes) complain(note);
+  if (options.metrics) check_metrics(scene);
   if (!options.images.empty()) check_images(options.images, scene, recipes, options.force);
-  const Comparison comparison = compare_scene(scene, recipes, options);
+  const auto [comparison, metrics] = compare_scene(scene, recipes, options);
   agree = agree && own_recipes_agree(comparison);
   Json json = to_json(comparison);
   if (!options.common.json) print(fmt::format("{}\n", comparison_text(comparison)));
+  if (metrics) {
+    json["metrics"] = metrics->json;
+    if (!options.common.json) print(fmt::format("{}\n", metrics->text));
+  }
   if (!options.images.empty()) {
     const ComparisonImages images = write_images(options.images, scene, recipes, options.view, options.common.threads);
     json["images"] = images_json(images);
@@ -170,6 +198,8 @@ void add_compare(CommandSet& commands) {
   command.text("--save-rays", options->save_rays, "FILE", "Write the rays that were traced to a file");
   command.text("--load-rays", options->load_rays, "FILE", "Trace the rays of such a file");
   command.text("--images", options->images, "DIR", "Write a rendering and heat maps into a folder");
+  command.flag("--metrics", options->metrics,
+               "Also judge every tree by metrics, and the metrics by the times measured; builds each once more");
   command.flag("--force", options->force, "Replace files that exist");
   add_common(command, options->common);
 }

@@ -6,6 +6,8 @@
 #include <cctype>
 
 #include "console.h"
+#include "expected_view.h"
+#include "render/heat_scale.h"
 #include "render/render.h"
 #include "report/progress_bar.h"
 #include "workspace.h"
@@ -14,9 +16,6 @@ namespace boxwood::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The brightest pixel in a hundred may burn out; else a few extreme rays leave everything else dark.
-constexpr double share_shown = 0.99;
 
 /// Letters and digits stay, each run of anything else becomes one dash.
 std::string file_name_part(const std::string& text) {
@@ -50,22 +49,6 @@ RenderSettings settings_of(const Scene& scene, const ViewOptions& view, const ch
   return settings;
 }
 
-/// The count that `share_shown` of the pixels do not exceed.
-float usual_maximum(const Image& counts) {
-  std::vector<float> values;
-  for (const Vec3& pixel : counts.pixels) values.push_back(std::max(pixel.x, pixel.y));
-  const auto rank = static_cast<std::ptrdiff_t>(share_shown * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-Image scaled(Image counts, float scale) {
-  if (scale > 0) {
-    for (Vec3& pixel : counts.pixels) pixel = pixel / scale;
-  }
-  return counts;
-}
-
 }  // namespace
 
 void check_images(const fs::path& folder, const Scene& scene, const std::vector<Recipe>& recipes, bool force) {
@@ -81,11 +64,12 @@ ComparisonImages write_images(const fs::path& folder, const Scene& scene, const 
   ComparisonImages images;
   images.rendering = rendering_file(folder, scene).string();
   std::vector<Image> counts;
+  const std::optional<ExpectedUse> use = expected_view(scene, recipes, view, threads);
   ProgressBar bar(stop_requested());
   for (std::size_t i = 0; i < recipes.size(); ++i) {
     if (is_peer(recipes[i]) && i > 0) continue;
     if (!bar.report(static_cast<double>(i) / static_cast<double>(recipes.size()), "drawing")) throw Cancelled();
-    const Structure structure = build(scene, recipes[i], {.threads = threads});
+    const Structure structure = build(scene, recipes[i], {.threads = threads, .use = pointer_to(use)});
     run_in_arena(threads, [&] {
       if (i == 0) write_png(images.rendering, render(scene, structure, settings_of(scene, view, "eyelight")).image);
       if (is_peer(recipes[i])) return;

@@ -22,6 +22,15 @@ std::vector<const Stage*> stages_of(StageKind kind) {
   return out;
 }
 
+/// The usual builder, or one that tells the cells that a layout needs.
+std::string builder_for(const Stage& layout) {
+  if (!layout.cells) return std::string(usual_builder);
+  for (const Stage* builder : stages_of(StageKind::builder)) {
+    if (builder->cells) return builder->name;
+  }
+  throw Error(fmt::format("no builder makes the octrees that the layout '{}' needs", layout.name));
+}
+
 /// The values of an option that takes one of a few words.
 std::vector<std::string> words(const Option& option) {
   constexpr std::string_view separator = " | ";
@@ -70,7 +79,7 @@ std::vector<Recipe> every_recipe() {
     if (std::ranges::find(all, recipe) == all.end()) all.push_back(recipe);
   };
   for (const Stage* layout : stages_of(StageKind::layout)) {
-    const std::string walked = fmt::format("{} > {}", usual_builder, layout->name);
+    const std::string walked = fmt::format("{} > {}", builder_for(*layout), layout->name);
     add(Recipe::parse(walked));
     for (const std::string& trace : ways_to_trace()) add(Recipe::parse(fmt::format("{} > {}", walked, trace)));
   }

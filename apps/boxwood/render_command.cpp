@@ -1,15 +1,20 @@
 // `boxwood render`: one picture of one scene, and how fast its rays were traced.
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "command.h"
 #include "console.h"
 #include "exit_code.h"
+#include "expected_view.h"
 #include "measure/clock.h"
 #include "options/options.h"
 #include "render/integrator.h"
 #include "render/render.h"
+#include "render/tone_map.h"
 #include "report/json.h"
 #include "report/number_text.h"
 #include "report/progress_bar.h"
@@ -27,12 +32,17 @@ struct RenderOptions {
   std::string recipe = "default";
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
+  std::uint32_t heatmap_scale = 0;
+  std::uint32_t depth = 8;
+  std::string lights = "scene", secondary = "queued";
+  std::optional<float> exposure;  ///< stops; none: by the picture's own brightness
   std::string output = "out.png";
   std::string cameras;  ///< file; one picture for each of its cameras
   bool force = false;
 };
 
 struct Rendering {
+  ViewOptions view;  ///< as it was rendered
   RenderResult result;
   double seconds = 0;
 };
@@ -59,17 +69,30 @@ std::vector<Shot> plan_shots(const RenderOptions& options) {
   return shots;
 }
 
+/// A camera whose file asks for a size gets it, unless another was asked for.
+ViewOptions sized_for(const Camera& camera, ViewOptions view) {
+  if (view.sized || camera.width == 0) return view;
+  view.width = camera.width;
+  view.height = camera.height;
+  return view;
+}
+
 Rendering render_timed(const Scene& scene, const Structure& structure, const RenderOptions& options,
                        const Camera& camera) {
+  Rendering rendering;
+  rendering.view = sized_for(camera, options.view);
   RenderSettings settings;
   settings.camera = camera;
-  settings.width = options.view.width;
-  settings.height = options.view.height;
+  settings.width = rendering.view.width;
+  settings.height = rendering.view.height;
   settings.spp = options.spp;
+  settings.depth = options.depth;
+  settings.lights = options.lights;
+  settings.secondary = options.secondary == "immediate" ? SecondaryRays::immediate : SecondaryRays::queued;
   settings.integrator = options.integrator;
+  settings.heatmap_scale = static_cast<float>(options.heatmap_scale);
   ProgressBar bar(stop_requested());
   const double begin = now(Clock::wall);
-  Rendering rendering;
   rendering.result = run_in_arena(options.common.threads, [&] { return render(scene, structure, settings, &bar); });
   rendering.seconds = now(Clock::wall) - begin;
   return rendering;
@@ -92,12 +115,16 @@ Json rendering_json(const Scene& scene, const Structure& structure, const Render
           {"triangles", scene.placed_triangles()},
           {"recipe", structure.recipe().text()},
           {"integrator", options.integrator},
-          {"width", options.view.width},
-          {"height", options.view.height},
+          {"width", rendering.view.width},
+          {"height", rendering.view.height},
           {"spp", options.spp},
+          {"depth", options.depth},
+          {"lights", options.lights},
+          {"secondary", options.secondary},
           {"build_ms", measured_once(structure.report().build_ms)},
           {"render_ms", measured_once(rendering.seconds * 1000)},
           {"rays", to_json(rendering.result.ray_kinds)},
+          {"queries", totals_by_query(rendering.result.ray_kinds)},
           {"heatmap_scale", rendering.result.heatmap_scale},
           {"file", shot.file.string()},
           {"notes", to_json(scene.notes)}};
@@ -113,16 +140,35 @@ std::string rendering_text(const Shot& shot, const Rendering& rendering) {
   return text;
 }
 
+/// Pictures of radiance get their tones mapped, except in files that can hold them as they are.
+void write_picture(const std::filesystem::path& file, const Integrator& integrator, const RenderOptions& options,
+                   const Image& image) {
+  const bool mapped = integrator.radiance && !keeps_radiance(file);
+  write_image(file, mapped ? map_tones(image, options.exposure) : image);
+}
+
+std::optional<float> parse_exposure(const std::string& text) {
+  double stops = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stops);
+  if (error != std::errc{} || end != text.data() + text.size() || !(std::fabs(stops) <= 50)) {
+    throw UsageError(fmt::format("takes a number of stops from -50 to 50, not '{}'", text));
+  }
+  return static_cast<float>(stops);
+}
+
 int run_render(const RenderOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
-  find_integrator(options.integrator);
+  const Integrator& integrator = find_integrator(options.integrator);
   std::vector<Shot> shots = plan_shots(options);
   for (const Shot& shot : shots) check_can_write_image(shot.file, options.force);
   const Scene scene = load_scene(options.scene);
   if (options.cameras.empty()) shots.front().camera = find_camera(scene, options.view);
   for (const std::string& note : scene_notes(scene)) complain(note);
   check_interrupt();
-  const Structure structure = build(scene, recipe, {.threads = options.common.threads});
+  // Along a path the structure is built once, for the first picture.
+  std::optional<ExpectedUse> use;
+  if (needs_use(recipe)) use = expected_view(scene, shots.front().camera, options.view, options.common.threads);
+  const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
   Json documents = Json::array();
   if (!options.common.json) {
     print(fmt::format("{}: {}, built in {} by {}\n", scene.name, counted(scene.placed_triangles(), "triangle"),
@@ -131,7 +177,7 @@ int run_render(const RenderOptions& options) {
   for (const Shot& shot : shots) {
     check_interrupt();
     const Rendering rendering = render_timed(scene, structure, options, shot.camera);
-    write_image(shot.file, rendering.result.image);
+    write_picture(shot.file, integrator, options, rendering.result.image);
     if (options.common.json) {
       documents.push_back(rendering_json(scene, structure, options, shot, rendering));
     } else {
@@ -157,6 +203,17 @@ void add_render(CommandSet& commands) {
                "Render from each camera of this file (see boxwood cameras); pictures are called OUTPUT-CAMERA", "none");
   command.conflict("--cameras", "--camera");
   command.integer("--spp", options->spp, 1, 1u << 20, "Samples per pixel");
+  command.integer("--heatmap-scale", options->heatmap_scale, 0, 1u << 20,
+                  "Tests per ray at full brightness of a heat map, so that several compare; 0: the most of any pixel");
+  command.integer("--depth", options->depth, 0, 1000, "Most bounces of a path (integrators path and whitted)");
+  std::vector<std::string> lights;
+  for (const LightSetting& setting : light_settings()) lights.emplace_back(setting.name);
+  command.choice("--lights", options->lights, lights, "NAME", "What lights the scene (integrator whitted)");
+  command.choice("--secondary", options->secondary, {"queued", "immediate"}, "WHEN",
+                 "Trace reflected, refracted and shadow rays all together or at once (integrator whitted)");
+  command.parsed(
+      "--exposure", [options](const std::string& text) { options->exposure = parse_exposure(text); }, "STOPS",
+      "Brightness of a .png (integrator path); 0 shows radiance as it is, 1 twice as bright", "by the picture");
   command.text("-o,--output", options->output, "FILE", "Picture to write, .png or .exr");
   command.flag("--force", options->force, "Replace the picture if there is one");
   add_common(command, options->common);

@@ -25,6 +25,7 @@ void parse_size(const std::string& text, ViewOptions& view) {
   } catch (const UsageError&) {
     throw wrong();
   }
+  view.sized = true;
 }
 
 }  // namespace
@@ -44,6 +45,8 @@ void add_view(Command& command, ViewOptions& view) {
   command.parsed(
       "--size", [&view](const std::string& text) { parse_size(text, view); }, "WxH", "Pixels of the camera",
       fmt::format("{}x{}", view.width, view.height));
+  command.integer("--block", view.block, 1, 1024,
+                  "Recipes that adapt to what is traced learn from the rays of one pixel in each NxN");
 }
 
 void add_scene(Command& command, std::string& scene) {

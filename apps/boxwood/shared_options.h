@@ -17,6 +17,8 @@ struct CommonOptions {
 struct ViewOptions {
   std::string camera;  ///< name; empty: the scene's first
   std::uint32_t width = 512, height = 512;
+  std::uint32_t block = 4;  ///< one pixel of each block x block stands for all, for recipes that adapt to the view
+  bool sized = false;       ///< whether the size was asked for
 };
 
 // What several commands declare alike.

@@ -11,6 +11,7 @@
 #include "console.h"
 #include "every_recipe.h"
 #include "exit_code.h"
+#include "expected_view.h"
 #include "report/json.h"
 #include "report/number_text.h"
 #include "report/progress_bar.h"
@@ -146,10 +147,11 @@ void check_leaks(const Structure& structure, const std::vector<Ray>& rays, Recip
 
 std::vector<RecipeVerdict> check_recipes(const Scene& scene, const std::vector<Recipe>& recipes,
                                          const std::vector<Question>& questions, const InsideRays& inside,
-                                         unsigned threads, ProgressSink& progress) {
+                                         const VerifyOptions& options, ProgressSink& progress) {
   std::vector<RecipeVerdict> verdicts;
+  const std::optional<ExpectedUse> use = expected_view(scene, recipes, options.view, options.common.threads);
   for (const Recipe& recipe : recipes) {
-    const Structure structure = build(scene, recipe, {.threads = threads});
+    const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
     RecipeVerdict verdict;
     verdict.recipe = recipe.text();
     for (const Question& question : questions) check_answers(structure, question, verdict);
@@ -240,7 +242,7 @@ int run_verify(const VerifyOptions& options) {
     ProgressBar truth_bar(stop_requested());
     answer_by_brute_force(scene, questions, truth_bar);
     ProgressBar recipes_bar(stop_requested());
-    verdicts = check_recipes(scene, recipes, questions, inside, options.common.threads, recipes_bar);
+    verdicts = check_recipes(scene, recipes, questions, inside, options, recipes_bar);
   });
   if (options.common.json) {
     print_json(verification_json(scene, questions, inside, verdicts));

@@ -35,14 +35,20 @@ struct Instance {
   Transform object_to_world;
 };
 
+/// How a surface sends out and scatters light. Diffuse, specular, reflection and transmission are shares of the light
+/// that arrives, per colour; where they exceed 1 together, renderers scale them down.
 struct Material {
   std::string name;
-  Vec3 diffuse{0.7f, 0.7f, 0.7f};
-  Vec3 emission{0, 0, 0};
-  Vec3 specular{0, 0, 0};
-  float shininess = 0;
-  float opacity = 1;
+  Vec3 diffuse{0.7f, 0.7f, 0.7f};  ///< scattered evenly (Lambert)
+  Vec3 emission{0, 0, 0};          ///< radiance sent out
+  Vec3 specular{0, 0, 0};          ///< scattered around the mirror direction (Phong)
+  float shininess = 0;             ///< exponent of that lobe
+  Vec3 reflection{0, 0, 0};        ///< reflected as by a mirror
+  Vec3 transmission{0, 0, 0};      ///< let through, bent by refraction_index; the sides are the triangles' own
+  /// Of the inside, the back of the triangles, relative to the outside. Unless it is 1, Fresnel's equations divide what
+  /// a transmitting surface lets through and mirrors.
   float refraction_index = 1;
+  bool emits_behind = true;  ///< whether the back of the triangles sends out light as well
 };
 
 /// Pinhole camera. `direction` need not be of unit length; `fov` is the angle in degrees across the shorter image side.
@@ -52,11 +58,26 @@ struct Camera {
   Vec3 direction{0, 0, -1};
   Vec3 up{0, 1, 0};
   float fov = 60;
+  bool mirrored = false;  ///< pictures are flipped left to right, as worlds with a left-handed frame need it
+  std::uint32_t width = 0, height = 0;  ///< pixels that its file asks for; 0: it does not say
 };
 
-struct PointLight {
+enum class LightKind : std::uint32_t {
+  point,    ///< from `position` in all directions
+  spot,     ///< from `position`, within a cone around `direction`
+  distant,  ///< parallel, along `direction`
+  sky,      ///< from everywhere, evenly
+};
+
+/// A light without a surface; surfaces give light by their material's emission.
+struct Light {
   Vec3 position;
+  /// Power per solid angle (point, spot), power per area that faces the light (distant), radiance (sky).
   Vec3 intensity{1, 1, 1};
+  LightKind kind = LightKind::point;
+  Vec3 direction{0, 0, -1};  ///< in which the light travels; unit length
+  /// Cosines of the angles around `direction` up to which a spot shines fully, and from which on it does not at all.
+  float full_cosine = 1, dark_cosine = 0;
 };
 
 /// What was found wrong with the input and left out or changed, one sentence each.
@@ -74,7 +95,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Material> materials;
   std::vector<Camera> cameras;  ///< the first is the default
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;    ///< with the emissive materials, all that gives light
   ImportNotes notes;
 
   /// Adds one mesh, placed once as it stands. Throws Error on an index out of range. O(n).
@@ -94,7 +115,7 @@ struct Scene {
 /// A triangle that a build can use: finite, within largest_coordinate, and of non-zero area.
 bool is_usable(const Mesh& mesh, std::uint32_t triangle);
 
-/// Reads a scene from a file (OBJ, PLY, glTF, GLB, STL, …) or makes one from "generate:NAME(option=value, …)".
+/// Reads a scene from a file (OBJ, PLY, pbrt, glTF, GLB, STL, …) or makes one from "generate:NAME(option=value, …)".
 /// Cameras are taken from the sidecar FILE-without-extension.cameras.json (or FOLDER.cameras.json beside the file's
 /// folder) when it exists, then from the file, and one that frames the scene is always appended. Meshes placed once are
 /// merged into one mesh in world space; meshes placed several times stay instances. Throws Error naming the file, the

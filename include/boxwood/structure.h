@@ -4,8 +4,10 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "boxwood/counters.h"
+#include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
 #include "boxwood/recipe.h"
 #include "boxwood/scene.h"
@@ -13,19 +15,26 @@
 namespace boxwood {
 
 class Layout;
+struct ExpectedUse;
 
 struct BuildOptions {
   unsigned threads = 0;  ///< 0: as many as the machine has. The tree is the same for any number.
+  /// What will be traced, for recipes that want to know (boxwood/expected_use.h); must live until build() returns.
+  const ExpectedUse* use = nullptr;
 };
+
+/// Whether building by `recipe` takes BuildOptions::use.
+bool needs_use(const Recipe& recipe);
 
 /// What a build cost and what it made.
 struct BuildReport {
-  double build_ms = 0;           ///< wall time from triangles to a structure that can be traced
-  std::size_t bytes = 0;         ///< held by the structure, beyond the caller's mesh
-  double sah_cost = 0;           ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
-  std::uint64_t nodes = 0;       ///< inner nodes and leaves before layout
-  std::uint64_t primitives = 0;  ///< usable unique triangles
-  std::uint64_t left_out = 0;    ///< triangles left out as degenerate or not finite
+  double build_ms = 0;            ///< wall time from triangles to a structure that can be traced
+  std::size_t bytes = 0;          ///< held by the structure, beyond the caller's mesh
+  double sah_cost = 0;            ///< surface area cost, C_traversal = C_intersection = 1; summed over instanced meshes
+  std::uint64_t nodes = 0;        ///< inner nodes and leaves before layout
+  std::uint64_t primitives = 0;   ///< usable unique triangles
+  std::uint64_t left_out = 0;     ///< triangles left out as degenerate or not finite
+  std::vector<LayoutFact> facts;  ///< what the layout tells of itself, over all levels; see docs/octrees.md
 };
 
 /// An immutable acceleration structure. Copies share it. All queries are const, thread safe and allocation free.
@@ -57,7 +66,8 @@ class Structure {
 
 /// Builds the structure that `recipe` describes over `scene`. Deterministic: same input, same structure, for any number
 /// of threads. Unusable triangles are left out and counted in report(). The scene may be freed afterwards.
-/// Throws UsageError when stages do not fit each other, Error when the scene cannot be built.
+/// Throws UsageError when stages do not fit each other or need a use that is not told, Error when the scene cannot be
+/// built.
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options = {});
 Structure build(const Scene& scene, std::string_view recipe = "default", const BuildOptions& options = {});
 

@@ -18,7 +18,15 @@ struct Cut {
   bool exists() const { return price() < no_price; }
 };
 
-/// The cheapest cut through items [first, last); the first of equals. `Items` has box(i) and count(i). O(last - first).
+/// How many of item i's references are seen; nothing asks but models.
+template <class Pricing, class Items>
+std::uint32_t seen_of(const Items& items, std::uint32_t i) {
+  if constexpr (Pricing::is_model) return items.seen(i);
+  return 0;
+}
+
+/// The cheapest cut through items [first, last); the first of equals. `Items` has box(i), count(i) and, for models,
+/// seen(i). O(last - first).
 template <class Items, class Pricing>
 Cut best_cut(const Items& items, const Pricing& pricing, std::uint32_t first, std::uint32_t last) {
   Cut best;
@@ -26,19 +34,18 @@ Cut best_cut(const Items& items, const Pricing& pricing, std::uint32_t first, st
   const std::uint32_t candidates = last - first - 1;  // candidate c cuts before item first + c + 1
   typename Pricing::Prices left(pricing, candidates), right(pricing, candidates);
   Box4 box;
-  std::uint32_t count = 0;
+  std::uint32_t count = 0, seen = 0;
   for (std::uint32_t c = candidates; c-- > 0;) {
     box.grow(items.box(first + c + 1));
-    right.add(c, box, count += items.count(first + c + 1));
+    right.add(c, box, count += items.count(first + c + 1), seen += seen_of<Pricing>(items, first + c + 1));
   }
-  right.finish();
   box = {};
-  count = 0;
+  count = seen = 0;
   for (std::uint32_t c = 0; c < candidates; ++c) {
     box.grow(items.box(first + c));
-    left.add(c, box, count += items.count(first + c));
+    left.add(c, box, count += items.count(first + c), seen += seen_of<Pricing>(items, first + c));
   }
-  left.finish();
+  Pricing::Prices::finish(left, right);
   for (std::uint32_t c = 0; c < candidates; ++c) {
     if (left[c] + right[c] < best.price()) best = {first + c + 1, left[c], right[c]};
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "boxwood/box.h"
+#include "cost/known_use.h"
 
 namespace boxwood {
 
@@ -12,7 +13,7 @@ struct alignas(32) Reference {
   Vec3 lower;
   std::uint32_t primitive = 0;
   Vec3 upper;
-  std::uint32_t unused = 0;
+  float seen = 0;  ///< 1 when some ray is known to end on it; a float, since it rides in a register with `upper`
 
   Box box() const { return {lower, upper}; }
   /// Twice the centre on one axis; comparisons and bins do not need the halving.
@@ -37,6 +38,13 @@ class Geometry {
 struct BuildInput {
   std::vector<Reference> references;   ///< usable primitives only, in order of their numbers
   const Geometry* geometry = nullptr;  ///< null when only boxes are known; stages that need it must then refuse
+  const KnownUse* use = nullptr;       ///< null when nothing is known of the rays to come; likewise
 };
+
+/// Sets Reference::seen from what is known.
+inline void mark_seen(BuildInput& input) {
+  if (!input.use || input.use->seen.empty()) return;
+  for (Reference& reference : input.references) reference.seen = input.use->seen[reference.primitive] != 0 ? 1 : 0;
+}
 
 }  // namespace boxwood

@@ -4,7 +4,6 @@
 
 #include "build/centroids.h"
 #include "build/top_down.h"
-#include "cost/registry.h"
 #include "options/options.h"
 
 namespace boxwood {
@@ -32,6 +31,13 @@ template <class T>
 void add_extent(OptionsOf<T>& options) {
   options.choice("extent", static_cast<Extent T::*>(&T::extent), {"centroids", "box"},
                  "what the longest axis is measured on: the centroids' box or the node's");
+}
+
+template <class T>
+void add_coincident(OptionsOf<T>& options) {
+  options.choice(
+      "coincident", static_cast<Coincident T::*>(&T::coincident), {"halve", "leaf"},
+      "references with one centroid that are too many for a leaf: halved by count, or one leaf all the same");
 }
 
 template <class T>

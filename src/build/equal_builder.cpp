@@ -1,5 +1,5 @@
-// Object median along the longest side of the centroids' box, down to one reference per leaf: exactly the `equal`
-// method of pbrt and of the PCA study, but coincident centroids are halved on where pbrt makes one leaf.
+// Object median along the longest side of the centroids' box, down to one reference per leaf. equal(coincident=leaf) is
+// the `equal` method of pbrt and of the PCA study.
 #include "build/object_median.h"
 #include "build/stages.h"
 

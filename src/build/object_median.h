@@ -10,6 +10,7 @@ struct ObjectMedianOptions {
   Extent extent = Extent::box;
   CentroidKind centroid = CentroidKind::box;
   std::uint32_t leaf = 0;
+  Coincident coincident = Coincident::halve;
 };
 
 /// The stage `name`, with these defaults.

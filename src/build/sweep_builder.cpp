@@ -21,9 +21,10 @@ Tree build_sweep(const SweepOptions& options, BuildInput input) {
 Stage sweep_stage() {
   OptionsOf<SweepOptions> options;
   add_cost_options(options);
-  return builder_stage<SweepOptions>("sweep", "the cheapest of all gaps between sorted centroids",
-                                     "MacDonald and Booth 1990; wide BVH study; SAH alternatives study", options,
-                                     build_sweep, [](const SweepOptions& chosen) { return chosen.k; });
+  return with_cost<SweepOptions>(
+      builder_stage<SweepOptions>("sweep", "the cheapest of all gaps between sorted centroids",
+                                  "MacDonald and Booth 1990; wide BVH study; SAH alternatives study", options,
+                                  build_sweep, [](const SweepOptions& chosen) { return chosen.k; }));
 }
 
 }  // namespace boxwood

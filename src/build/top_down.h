@@ -9,17 +9,21 @@
 #include "build/build_input.h"
 #include "build/centroids.h"
 #include "build/float4.h"
+#include "cost/cost_model.h"
 #include "tree/tree.h"
 
 namespace boxwood {
 
 inline constexpr std::uint32_t max_children = 16;
+/// Sets of at least this many references are looked through by several threads.
+inline constexpr std::uint32_t parallel_size = 1 << 16;
 
 /// What a splitter is asked to divide: at least two references, theirs to permute.
 struct ReferenceSet {
   std::span<Reference> references;
-  Box4 bounds;   ///< of their boxes
-  Box4 centers;  ///< of their doubled centroids
+  Box4 bounds;                                ///< of their boxes
+  Box4 centers;                               ///< of their doubled centroids
+  const CostModel::Memory* memory = nullptr;  ///< what the cost model remembers of this set's node
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references.size()); }
 };
@@ -36,6 +40,12 @@ struct Cuts {
   }
 };
 
+/// What becomes of references whose centroids all coincide, where they are more than a leaf is to hold.
+enum class Coincident {
+  halve,  ///< halved by count, so that no leaf is larger than the limit
+  leaf    ///< one leaf, as in pbrt
+};
+
 /// Permutes the set so that every part is contiguous and says where the cuts are. No cuts: make a leaf, or, when the
 /// set is above the leaf limit, halve it by count. Thread safe, deterministic.
 using Splitter = std::function<Cuts(const ReferenceSet& set)>;
@@ -45,6 +55,8 @@ using Splitter = std::function<Cuts(const ReferenceSet& set)>;
 /// not depend on them: a subtree over references [b, e) owns node slots given by b and e. O(n log n) for splitters of
 /// O(n). At most 100 bytes per reference with the
 /// input, and about 120 while the finished nodes are copied out of their slots. Throws Error above 2^31 references.
-Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split);
+/// `model` is told of every node before it is split; null: there is none.
+Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t leaf_limit, const Splitter& split,
+                    Coincident coincident = Coincident::halve, const CostModel* model = nullptr);
 
 }  // namespace boxwood

@@ -25,8 +25,8 @@ double SceneInterior::reached_volume(const Box& box) const {
   return reached_volume(node);
 }
 
-void SceneInterior::probabilities(const Box& parent, std::span<const Side> sides, std::span<float> out) const {
-  const double whole = reached_volume(parent);
+void SceneInterior::probabilities(const Node& parent, std::span<const Side> sides, std::span<float> out) const {
+  const double whole = reached_volume(parent.box);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     // The approximation may put a child a little above its parent.
     out[i] = whole > 0 ? static_cast<float>(std::min(1.0, reached_volume(sides[i].box) / whole)) : 1;

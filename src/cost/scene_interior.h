@@ -12,7 +12,7 @@ class SceneInterior : public CostModel {
  public:
   /// `scene` may be flat or empty; it is widened a little.
   explicit SceneInterior(const Box& scene);
-  void probabilities(const Box& parent, std::span<const Side> sides, std::span<float> out) const final;
+  void probabilities(const Node& parent, std::span<const Side> sides, std::span<float> out) const final;
 
  protected:
   /// An interval per axis.

@@ -30,6 +30,11 @@ struct Kernels {
   Any any = nullptr, any_counted = nullptr;
   void (*closest_batch)(const LevelType&, std::span<const Ray>, std::span<Hit>) = nullptr;
   void (*any_batch)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>) = nullptr;
+  /// Where a batch does not cost what its rays alone do; null elsewhere.
+  void (*closest_batch_counted)(const LevelType&, std::span<const Ray>, std::span<Hit>,
+                                std::span<RayCounters>) = nullptr;
+  void (*any_batch_counted)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>,
+                            std::span<RayCounters>) = nullptr;
 };
 
 /// A layout that is nothing but a level and its kernels.
@@ -53,6 +58,7 @@ class KernelLayout final : public Layout {
   }
   void closest_hits_counted(std::span<const Ray> rays, std::span<Hit> hits,
                             std::span<RayCounters> counters) const override {
+    if (kernels_.closest_batch_counted) return kernels_.closest_batch_counted(level_, rays, hits, counters);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       hits[i] = {};
       counters[i] = {};
@@ -61,6 +67,7 @@ class KernelLayout final : public Layout {
   }
   void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                         std::span<RayCounters> counters) const override {
+    if (kernels_.any_batch_counted) return kernels_.any_batch_counted(level_, rays, blocked, counters);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       counters[i] = {};
       blocked[i] = kernels_.any_counted(level_, rays[i], &counters[i]) ? 1 : 0;
@@ -73,6 +80,16 @@ class KernelLayout final : public Layout {
     return (counters ? kernels_.any_counted : kernels_.any)(level_, ray, counters);
   }
   std::size_t bytes() const override { return level_.nodes.bytes() + level_.leaves.bytes(); }
+  std::vector<LayoutFact> facts() const override {
+    std::size_t topology = level_.nodes.bytes();
+    if constexpr (requires { level_.nodes.topology_bytes(); }) topology = level_.nodes.topology_bytes();
+    std::vector<LayoutFact> facts = {{"topology_bytes", static_cast<double>(topology)},
+                                     {"leaf_bytes", static_cast<double>(bytes() - topology)}};
+    if constexpr (requires { level_.nodes.facts(); }) {
+      for (LayoutFact& fact : level_.nodes.facts()) facts.push_back(std::move(fact));
+    }
+    return facts;
+  }
 
  private:
   Level<Nodes, Leaves> level_;

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "boxwood/counters.h"
+#include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
 
 namespace boxwood {
@@ -33,6 +35,9 @@ class Layout {
 
   /// Bytes held, beyond the caller's mesh and the bottom levels.
   virtual std::size_t bytes() const = 0;
+  /// What else it tells of itself: at least `topology_bytes`, what a walk reads at every step, inner nodes and leaves
+  /// alike, and `leaf_bytes`, all other. Empty where these are not kept apart.
+  virtual std::vector<LayoutFact> facts() const { return {}; }
 };
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);

@@ -63,19 +63,25 @@ struct ClosestVisit {
   }
   HWY_INLINE bool operator()(const Link& leaf, const TriangleLeaves& leaves) {
     counting.leaf();
-    for (const LeafTriangle *t = leaves.triangles.data() + leaf.first, *end = t + leaf.count; t != end; ++t) {
-      counting.primitive();
-      if (closest_of(*t, prepared, instance, best)) lower_cutoff();
-    }
+    for (const LeafTriangle *t = leaves.triangles.data() + leaf.first, *end = t + leaf.count; t != end; ++t) entry(*t);
     return false;
   }
   HWY_INLINE bool operator()(const Link& leaf, const InstanceLeaves& leaves) {
     counting.leaf();
-    for (const InstanceLeaf *i = leaves.instances.data() + leaf.first, *end = i + leaf.count; i != end; ++i) {
-      const std::uint32_t number = instance == own_instances ? i->instance : instance;
-      i->bottom->closest_below(object_ray(i->world_to_object, ray), number, best, counting.below());
-      lower_cutoff();
-    }
+    for (const InstanceLeaf *i = leaves.instances.data() + leaf.first, *end = i + leaf.count; i != end; ++i) entry(*i);
+    return false;
+  }
+
+  /// One entry of a leaf.
+  HWY_INLINE bool entry(const LeafTriangle& triangle) {
+    counting.primitive();
+    if (closest_of(triangle, prepared, instance, best)) lower_cutoff();
+    return false;
+  }
+  HWY_INLINE bool entry(const InstanceLeaf& placed) {
+    const std::uint32_t number = instance == own_instances ? placed.instance : instance;
+    placed.bottom->closest_below(object_ray(placed.world_to_object, ray), number, best, counting.below());
+    lower_cutoff();
     return false;
   }
 };
@@ -91,17 +97,24 @@ struct AnyVisit {
   HWY_INLINE bool operator()(const Link& leaf, const TriangleLeaves& leaves) {
     counting.leaf();
     for (const LeafTriangle *t = leaves.triangles.data() + leaf.first, *end = t + leaf.count; t != end; ++t) {
-      counting.primitive();
-      if (blocks(*t, prepared)) return true;
+      if (entry(*t)) return true;
     }
     return false;
   }
   HWY_INLINE bool operator()(const Link& leaf, const InstanceLeaves& leaves) {
     counting.leaf();
     for (const InstanceLeaf *i = leaves.instances.data() + leaf.first, *end = i + leaf.count; i != end; ++i) {
-      if (i->bottom->any_below(object_ray(i->world_to_object, ray), counting.below())) return true;
+      if (entry(*i)) return true;
     }
     return false;
+  }
+
+  HWY_INLINE bool entry(const LeafTriangle& triangle) {
+    counting.primitive();
+    return blocks(triangle, prepared);
+  }
+  HWY_INLINE bool entry(const InstanceLeaf& placed) {
+    return placed.bottom->any_below(object_ray(placed.world_to_object, ray), counting.below());
   }
 };
 

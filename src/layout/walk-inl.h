@@ -1,12 +1,13 @@
 // The walk through any layout's nodes, and the table of kernels made of it. Compiled once per instruction set.
 //
 // A layout brings a `Tester`, made once per ray from its nodes and the prepared ray:
-//   Slot                                        where a node is, 32 bits
+//   Slot                                        where a node is; 32 bits unless more must be known to decode it
 //   root_box, root_slot, root_link              of the nodes it was made from, which must not be empty
 //   link(slot)                                  what is known of that node
 //   children(link)                              how many there are
 //   test(slot, link, child, from, limit, t)     whether the ray enters that child within [from, limit], and at which t
 //   slot_of(slot, link, child)
+// A tester whose nodes are parts of boxes brings other tests and has another walk: see segment_walk-inl.h.
 #if defined(BOXWOOD_LAYOUT_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_WALK_INL_H
 #undef BOXWOOD_LAYOUT_WALK_INL_H
@@ -19,6 +20,7 @@
 #include "layout/encode.h"
 #include "layout/kernel_layout.h"
 #include "layout/leaf_visit-inl.h"
+#include "layout/segment_walk-inl.h"
 #include "layout/trace_options.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,13 +28,17 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 
 /// A child that the ray enters at `t` and that is still to be visited.
+template <class Slot>
 struct Pending {
-  std::uint32_t slot;
+  Slot slot;
   float t;
 };
 
 template <class Tester, class Leaves, class Visit, ChildOrder order>
 struct Walk {
+  using Slot = typename Tester::Slot;
+  using Pending = HWY_NAMESPACE::Pending<Slot>;
+
   const Tester& tester;
   const PreparedRay& ray;
   const Leaves& leaves;
@@ -40,7 +46,7 @@ struct Walk {
   float from;
 
   /// Tests the children of an inner node and puts those that are met on the stack, the first to visit on top.
-  HWY_INLINE Pending* open(std::uint32_t slot, const Link& link, Pending* top) {
+  HWY_INLINE Pending* open(const Slot& slot, const Link& link, Pending* top) {
     Pending* const base = top;
     const std::uint32_t children = tester.children(link);
     visit.counting.open(children);
@@ -63,7 +69,7 @@ struct Walk {
     return top;
   }
 
-  HWY_INLINE bool iterate(std::uint32_t slot, Link link, Pending* const stack) {
+  HWY_INLINE bool iterate(Slot slot, Link link, Pending* const stack) {
     for (Pending* top = stack;;) {
       if (link.leaf) {
         if (visit(link, leaves)) return true;
@@ -79,12 +85,12 @@ struct Walk {
     }
   }
 
-  bool recurse(std::uint32_t slot, const Link& link, Pending* const stack) {
+  bool recurse(const Slot& slot, const Link& link, Pending* const stack) {
     if (link.leaf) return visit(link, leaves);
     for (Pending* top = open(slot, link, stack); top != stack;) {
       --top;
       if (top->t > visit.cutoff) continue;
-      const std::uint32_t child = top->slot;
+      const Slot child = top->slot;
       if (recurse(child, tester.link(child), top)) return true;
     }
     return false;
@@ -94,17 +100,21 @@ struct Walk {
 template <class Tester, ChildOrder order, TraversalMode mode, class Nodes, class Leaves, class Visit>
 HWY_INLINE bool walk(const Level<Nodes, Leaves>& level, const PreparedRay& ray, Visit& visit) {
   if (level.nodes.empty()) return false;
-  const Tester tester(level.nodes, ray);
   // Without culling nothing is skipped for its distance: not even what lies behind the ray's origin (spec 000, 2.12).
   const float from = level.cull ? ray.t_near : -std::numeric_limits<float>::infinity();
-  float t_root;
-  const bool met = hit_box(tester.root_box(), ray, from, visit.cutoff, t_root);
-  visit.counting.test_root(met);
-  if (!met) return false;
-  Pending stack[stack_entries];
-  Walk<Tester, Leaves, Visit, order> walk{tester, ray, level.leaves, visit, from};
-  if constexpr (mode == TraversalMode::iterative) return walk.iterate(tester.root_slot(), tester.root_link(), stack);
-  return walk.recurse(tester.root_slot(), tester.root_link(), stack);
+  if constexpr (requires { Tester::segments; }) {
+    return walk_segments<Tester, order, mode>(level, ray, from, visit);
+  } else {
+    const Tester tester(level.nodes, ray);
+    float t_root;
+    const bool met = hit_box(tester.root_box(), ray, from, visit.cutoff, t_root);
+    visit.counting.test_root(met);
+    if (!met) return false;
+    Pending<typename Tester::Slot> stack[stack_entries];
+    Walk<Tester, Leaves, Visit, order> walk{tester, ray, level.leaves, visit, from};
+    if constexpr (mode == TraversalMode::iterative) return walk.iterate(tester.root_slot(), tester.root_link(), stack);
+    return walk.recurse(tester.root_slot(), tester.root_link(), stack);
+  }
 }
 
 /// The kernels for one way of walking.

@@ -55,7 +55,7 @@ std::vector<std::vector<double>> build_all(const Scene& scene, std::span<const R
   for (std::size_t i = 0; i < recipes.size(); ++i) {
     contestants.push_back([&, i] {
       structures[i].reset();  // the old one must not take memory from the new one
-      structures[i] = build(scene, recipes[i], {.threads = settings.threads});
+      structures[i] = build(scene, recipes[i], {.threads = settings.threads, .use = settings.use});
       return structures[i]->report().build_ms;
     });
   }

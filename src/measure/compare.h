@@ -18,7 +18,8 @@ struct CompareSettings {
   std::uint32_t warmup = 1;    ///< untimed passes before them
   std::uint32_t threads = 1;   ///< for building and tracing; 1 is timed in CPU time, more in wall time
   std::uint32_t build_repeats = 3;
-  double build_seconds = 60;  ///< no further round of builds starts once this much time went into building
+  double build_seconds = 60;         ///< no further round of builds starts once this much time went into building
+  const ExpectedUse* use = nullptr;  ///< as BuildOptions::use
 };
 
 /// One recipe on one ray set.

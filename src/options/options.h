@@ -32,6 +32,10 @@ class OptionsOf {
   /// `names[i]` stands for the enumerator with value i.
   template <class E>
   OptionsOf& choice(std::string name, E T::*member, std::vector<std::string> names, std::string help);
+  /// Anything that `parse` makes of a text (or throws UsageError("takes …, not '…'")) and `print` turns back into it.
+  template <class V>
+  OptionsOf& value(std::string name, V T::*member, V (*parse)(std::string_view), std::string (*print)(const V&),
+                   std::string values, std::string help);
   /// The option described last may be given without its name.
   OptionsOf& positional();
 
@@ -104,6 +108,15 @@ OptionsOf<T>& OptionsOf<T>::choice(std::string name, E T::*member, std::vector<s
               [=](const std::any& options) {
                 return names[static_cast<std::size_t>(std::any_cast<const T&>(options).*member)];
               }});
+}
+
+template <class T>
+template <class V>
+OptionsOf<T>& OptionsOf<T>::value(std::string name, V T::*member, V (*parse)(std::string_view),
+                                  std::string (*print)(const V&), std::string values, std::string help) {
+  return add({std::move(name), std::move(help), std::move(values), false,
+              [=](std::any& options, std::string_view text) { std::any_cast<T&>(options).*member = parse(text); },
+              [=](const std::any& options) { return print(std::any_cast<const T&>(options).*member); }});
 }
 
 }  // namespace boxwood

@@ -9,26 +9,27 @@
 namespace boxwood {
 namespace {
 
-const Stage& find_stage(std::string_view name) {
+/// A builder and a layout may have the same name: at the beginning it means the builder, after it the layout.
+const Stage& find_stage(std::string_view name, bool at_beginning) {
+  const Stage* found = nullptr;
   for (const Stage& stage : stages()) {
-    if (stage.name == name) return stage;
+    if (stage.name == name && (!found || (stage.kind == StageKind::builder) == at_beginning)) found = &stage;
   }
+  if (found) return *found;
   std::vector<std::string> names;
   for (const Stage& stage : stages()) names.push_back(stage.name);
   for (const Preset& preset : presets()) names.push_back(preset.name);
   throw UsageError(fmt::format("no recipe stage is called '{}'; {}", name, suggest(name, names)));
 }
 
-StageCall parse_call(std::string_view text, std::string_view recipe) {
+StageCall parse_call(std::string_view text, std::string_view recipe, bool at_beginning = false) {
   const CallText parts = parse_call_text(text);
   if (parts.name.empty()) {
     throw UsageError(fmt::format("the recipe '{}' has an empty stage; write STAGE > STAGE > …", recipe));
   }
-  StageCall call{&find_stage(parts.name), {}};
+  StageCall call{&find_stage(parts.name, at_beginning), {}};
   call.options = call.stage->defaults;
-  for (const std::string_view argument : parts.arguments) {
-    set_option(call.stage->name, call.stage->options, call.options, argument);
-  }
+  set_options(call.stage->options, call.options, parts);
   return call;
 }
 
@@ -77,6 +78,19 @@ void check_order(const std::vector<StageCall>& calls) {
   if (!has_layout) {
     fail(fmt::format("the recipe says how to build but not how to lay out: add one of {}, as in '{} > wide(8)'",
                      names_of(StageKind::layout), calls[0].stage->name));
+  }
+}
+
+/// Layouts of an octree's cells need a builder that tells them, and nothing that moves nodes in between.
+void check_cells(const std::vector<StageCall>& calls) {
+  for (std::size_t i = 1; i < calls.size(); ++i) {
+    const Stage& stage = *calls[i].stage;
+    if (stage.kind != StageKind::layout || !stage.cells) continue;
+    if (i == 1 && calls[0].stage->cells) continue;
+    throw UsageError(
+        fmt::format("'{0}' lays out the cells of an octree, so it must follow 'octree' directly, as in "
+                    "'octree > {0}'; '{1}' does not tell any",
+                    stage.name, calls[i - 1].stage->name));
   }
 }
 
@@ -129,11 +143,12 @@ Recipe Recipe::parse(std::string_view text) {
   std::vector<StageCall> calls;
   for (std::string_view rest = text;;) {
     const auto end = rest.find('>');
-    calls.push_back(parse_call(rest.substr(0, end), text));
+    calls.push_back(parse_call(rest.substr(0, end), text, calls.empty()));
     if (end == std::string_view::npos) break;
     rest.remove_prefix(end + 1);
   }
   check_order(calls);
+  check_cells(calls);
   fit_arity(calls);
   return Recipe(std::move(calls));
 }

@@ -1,21 +1,59 @@
 // Every stage of every recipe, one line each, and the presets. This is the only file that knows them all.
+#include "build/exhaustive/stages.h"
 #include "build/morton/stages.h"
+#include "build/octree/stages.h"
+#include "build/pca/stages.h"
 #include "build/spatial/stages.h"
+#include "build/srdh/stages.h"
 #include "build/stages.h"
+#include "layout/octree/stages.h"
+#include "layout/quantized/stages.h"
 #include "layout/stages.h"
 #include "recipe/stage.h"
 #include "refine/optimal_collapse/stages.h"
+#include "refine/order/stages.h"
 #include "refine/reinsert/stages.h"
+#include "refine/rotate/stages.h"
 #include "refine/stages.h"
 
 namespace boxwood {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> all = {
-      median_stage(),           middle_stage(),   equal_stage(),   sweep_stage(),
-      binned_stage(),           ploc_stage(),     spatial_stage(), collapse_stage(),
-      optimal_collapse_stage(), reinsert_stage(), binary_stage(),  wide_stage(),
-      compressed_stage(),       trace_stage(),
+      // clang-format off
+      median_stage(),
+      middle_stage(),
+      equal_stage(),
+      sweep_stage(),
+      binned_stage(),
+      ploc_stage(),
+      exhaustive_stage(),
+      foresight_stage(),
+      srdh_stage(),
+      spatial_stage(),
+      octree_builder_stage(),
+      pca_stage(),
+      combined_stage(),
+      distance_stage(),
+      hlbvh_stage(),
+      collapse_stage(),
+      optimal_collapse_stage(),
+      reinsert_stage(),
+      rotate_stage(),
+      order_stage(),
+      binary_stage(),
+      wide_stage(),
+      compressed_stage(),
+      slab_stage(),
+      binary_split_stage(),
+      wide_slab_stage(),
+      bih_stage(),
+      octree_layout_stage(),
+      bit_octree_stage(),
+      quantized_stage(),
+      oriented_stage(),
+      trace_stage(),
+  // clang-format on
 #ifdef BOXWOOD_EMBREE
       embree_stage(),
 #endif
@@ -25,8 +63,9 @@ const std::vector<Stage>& stages() {
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"fast", "ploc > collapse(8) > wide(8)", "quick to build"},
-      {"default", "ploc > reinsert > optimal-collapse(8) > wide(8)", "a good tree, small in memory, quick to build"},
+      {"fast", "ploc(radius=4, block=4, run=4) > collapse(8) > wide(8)", "quick to build"},
+      {"default", "ploc(block=4, run=4) > reinsert > optimal-collapse(8) > wide(8)",
+       "a good tree, small in memory, quick to build"},
       {"best", "spatial > reinsert > optimal-collapse(8) > wide(8)", "fewest tests per ray; slow to build"},
   };
   return all;

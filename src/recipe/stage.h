@@ -26,7 +26,27 @@ struct Contents {
 };
 
 using BuilderFunction = std::function<Tree(const std::any& options, BuildInput input)>;
-using RefinementFunction = std::function<Tree(const std::any& options, Tree tree)>;
+
+/// What a refinement may know besides the tree; the same as a builder.
+struct RefineContext {
+  const Geometry* geometry = nullptr;  ///< null when only boxes are known
+  const KnownUse* use = nullptr;       ///< null when nothing is known of the rays to come
+};
+
+class RefinementFunction {
+ public:
+  RefinementFunction() = default;
+  RefinementFunction(std::function<Tree(const std::any& options, Tree tree, const RefineContext&)> function)
+      : function_(std::move(function)) {}
+  Tree operator()(const std::any& options, Tree tree, const RefineContext& context = {}) const {
+    tree.cells = {};  // of the nodes as they were
+    return function_(options, std::move(tree), context);
+  }
+
+ private:
+  std::function<Tree(const std::any&, Tree, const RefineContext&)> function_;
+};
+
 using LayoutFunction = std::function<std::shared_ptr<const Layout>(const std::any& options, Tree tree, const Contents&,
                                                                    const TraceOptions&)>;
 /// A peer takes the scene whole and brings its own builder and kernels.
@@ -48,6 +68,10 @@ struct Stage {
   /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set
   /// it keeps the arity it finds.
   std::function<std::uint32_t(const std::any& options)> arity;
+  /// Whether the stage must know which rays will be traced. Not set: it need not.
+  std::function<bool(const std::any& options)> needs_use;
+  /// Of a builder: its trees tell the cells of an octree (Tree::cells). Of a layout: it encodes those.
+  bool cells = false;
 };
 
 /// A stage with the options a recipe gave it.
@@ -97,12 +121,25 @@ Stage builder_stage(std::string name, std::string summary, std::string source, O
 
 template <class Options>
 Stage refinement_stage(std::string name, std::string summary, std::string source, OptionsOf<Options> description,
+                       Tree (*refine)(const Options&, Tree, const RefineContext&),
+                       std::uint32_t (*arity)(const Options&)) {
+  Stage stage = describe(StageKind::refinement, std::move(name), std::move(summary), std::move(source),
+                         std::move(description), arity);
+  stage.refine = {[refine](const std::any& options, Tree tree, const RefineContext& context) {
+    return refine(std::any_cast<const Options&>(options), std::move(tree), context);
+  }};
+  return stage;
+}
+
+/// Of one that looks at nothing but the tree.
+template <class Options>
+Stage refinement_stage(std::string name, std::string summary, std::string source, OptionsOf<Options> description,
                        Tree (*refine)(const Options&, Tree), std::uint32_t (*arity)(const Options&)) {
   Stage stage = describe(StageKind::refinement, std::move(name), std::move(summary), std::move(source),
                          std::move(description), arity);
-  stage.refine = [refine](const std::any& options, Tree tree) {
+  stage.refine = {[refine](const std::any& options, Tree tree, const RefineContext&) {
     return refine(std::any_cast<const Options&>(options), std::move(tree));
-  };
+  }};
   return stage;
 }
 

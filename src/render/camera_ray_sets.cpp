@@ -32,7 +32,7 @@ std::vector<Ray> successors(const Surfaces& surfaces, std::span<const Ray> rays,
 
 /// Where a scene without lights is lit from: a tenth of its diagonal above and behind the camera, or, where something
 /// is in the way (a ceiling, a wall), most of the way to it.
-PointLight default_light(const RaySetContext& context) {
+Light default_light(const RaySetContext& context) {
   const Camera& camera = context.settings.camera;
   const float distance = 0.1f * length(context.bounds.extent());
   Ray way;
@@ -57,7 +57,8 @@ std::vector<Hit> trace(const Structure& structure, std::span<const Ray> rays) {
 std::vector<Ray> primary_rays(const RaySetContext& context) {
   const RaySetSettings& settings = context.settings;
   const CameraRays camera(settings.camera, settings.width, settings.height, 1, settings.seed);
-  const std::vector<std::uint32_t> pixels = pixels_in_tiles(settings.width, settings.height);
+  const std::vector<std::uint32_t> pixels =
+      pixels_in_blocks(settings.width, settings.height, settings.block, settings.seed);
   std::vector<Ray> rays(pixels.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), chunk), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) rays[i] = camera.ray(pixels[i], 0);
@@ -66,14 +67,12 @@ std::vector<Ray> primary_rays(const RaySetContext& context) {
 }
 
 std::vector<Ray> shadow_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits) {
-  std::vector<PointLight> lights = context.scene.lights;
-  if (lights.empty()) lights.push_back(default_light(context));
-  const auto light_count = static_cast<std::uint32_t>(lights.size());
-  return successors(context.surfaces, rays, hits,
-                    [&](std::uint32_t number, const SurfacePoint& point, const Vec3& incoming) {
-                      Random random = sample_random(context.settings.seed, RandomUse::light, number);
-                      return shadow_ray(point, incoming, lights[random.below(light_count)].position);
-                    });
+  const Lights lights(context.scene, context.surfaces, default_light(context));
+  return successors(
+      context.surfaces, rays, hits, [&](std::uint32_t number, const SurfacePoint& point, const Vec3& incoming) {
+        Random random = sample_random(context.settings.seed, RandomUse::light, number);
+        return shadow_ray(point, incoming, lights.sample(point.position, facing(point.normal, incoming), random));
+      });
 }
 
 std::vector<Ray> ao_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits) {

@@ -33,4 +33,8 @@ class CameraRays {
 /// image.
 std::vector<std::uint32_t> pixels_in_tiles(std::uint32_t width, std::uint32_t height);
 
+/// One pixel of each block of block x block pixels, picked at random; likewise in tiles, of blocks. 1: every pixel.
+std::vector<std::uint32_t> pixels_in_blocks(std::uint32_t width, std::uint32_t height, std::uint32_t block,
+                                            std::uint64_t seed);
+
 }  // namespace boxwood

@@ -35,6 +35,12 @@ void write_bytes(const std::filesystem::path& file, std::span<const unsigned cha
   out.commit();
 }
 
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
 /// Transfer function of IEC 61966-2-1, to 8 bits.
 unsigned char srgb(float linear) {
   if (!(linear > 0)) return 0;
@@ -46,14 +52,22 @@ unsigned char srgb(float linear) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-  check_size(file, image);
+std::vector<unsigned char> srgb_bytes(const Image& image) {
   std::vector<unsigned char> rgb;
   rgb.reserve(image.pixels.size() * 3);
   for (const Vec3& pixel : image.pixels) {
     for (const float channel : {pixel.x, pixel.y, pixel.z}) rgb.push_back(srgb(channel));
   }
-  write_bytes(file, encode_png(rgb, image.width, image.height));
+  return rgb;
+}
+
+std::vector<unsigned char> encode_png(const Image& image) {
+  return encode_png(srgb_bytes(image), image.width, image.height);
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  check_size(file, image);
+  write_bytes(file, encode_png(image));
 }
 
 void write_exr(const std::filesystem::path& file, const Image& image) {
@@ -99,11 +113,11 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
   write_bytes(file, {memory, size});
 }
 
+bool keeps_radiance(const std::filesystem::path& file) { return lower_extension(file) == ".exr"; }
+
 void write_image(const std::filesystem::path& file, const Image& image) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".png") return write_png(file, image);
-  if (extension == ".exr") return write_exr(file, image);
+  if (keeps_radiance(file)) return write_exr(file, image);
+  if (lower_extension(file) == ".png") return write_png(file, image);
   throw UsageError(
       fmt::format("'{}' does not end in .png or .exr, the image formats that can be written", file.string()));
 }

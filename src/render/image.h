@@ -20,11 +20,15 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
+/// 8-bit sRGB, three bytes a pixel, values clamped to [0, 1], NaN black.
+std::vector<unsigned char> srgb_bytes(const Image& image);
 /// 8-bit sRGB, values clamped to [0, 1], NaN black. The same image gives the same bytes. The file appears only once it
 /// is complete. Throws Error naming the file and the cause.
 void write_png(const std::filesystem::path& file, const Image& image);
 /// 32-bit float scan lines, as they are. Otherwise like write_png.
 void write_exr(const std::filesystem::path& file, const Image& image);
+/// Whether a file of that name holds linear values of any size (.exr) or 8-bit ones (.png).
+bool keeps_radiance(const std::filesystem::path& file);
 /// By extension, .png or .exr in any case; throws UsageError on another one.
 void write_image(const std::filesystem::path& file, const Image& image);
 

@@ -2,9 +2,11 @@
 #include <span>
 #include <string_view>
 
+#include "render/lights.h"
 #include "render/render.h"
 #include "render/surface.h"
 #include "render/tracer.h"
+#include "render/whitted/light_rig.h"
 
 namespace boxwood {
 
@@ -12,6 +14,8 @@ namespace boxwood {
 struct ShadingContext {
   const Scene& scene;
   const Surfaces& surfaces;
+  const Lights& lights;
+  const LightRig& rig;  ///< of `settings.lights`
   const RenderSettings& settings;
 };
 
@@ -33,6 +37,8 @@ struct Integrator {
   void (*shade)(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance);
   /// Turns pixel means into a picture, once, at the end; null when they are one already.
   void (*develop)(const RenderSettings& settings, RenderResult& result);
+  /// Pixels are radiance, of any brightness: what shows them has to map their tones.
+  bool radiance = false;
 };
 
 /// All integrators, in the order in which they are listed to users.

@@ -10,10 +10,8 @@ namespace boxwood {
 
 std::span<const Integrator> integrators() {
   static const Integrator table[] = {
-      eyelight_integrator(),
-      ao_integrator(),
-      normals_integrator(),
-      heatmap_integrator(),
+      eyelight_integrator(), ao_integrator(),   normals_integrator(),
+      heatmap_integrator(),  path_integrator(), whitted_integrator(),
   };
   return table;
 }

@@ -7,5 +7,7 @@ Integrator eyelight_integrator();
 Integrator ao_integrator();
 Integrator normals_integrator();
 Integrator heatmap_integrator();
+Integrator path_integrator();
+Integrator whitted_integrator();
 
 }  // namespace boxwood

@@ -9,4 +9,9 @@ namespace boxwood {
 /// memory runs out.
 std::vector<unsigned char> encode_png(std::span<const unsigned char> rgb, std::uint32_t width, std::uint32_t height);
 
+struct Image;
+
+/// PNG bytes of an image: 8-bit sRGB, as write_png() writes it.
+std::vector<unsigned char> encode_png(const Image& image);
+
 }  // namespace boxwood

@@ -25,6 +25,7 @@ void check(const RaySetSettings& settings, std::span<const std::string> kinds) {
   if (settings.bounces == 0 && std::ranges::find(kinds, "diffuse") != kinds.end()) {
     throw UsageError("diffuse rays need at least 1 bounce");
   }
+  if (settings.block == 0) throw UsageError("a block of pixels is at least 1 wide");
   if (!(settings.ao_radius >= 0 && std::isfinite(settings.ao_radius))) {
     throw UsageError(fmt::format("ao_radius must be 0 or more, not {}", settings.ao_radius));
   }

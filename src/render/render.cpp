@@ -56,7 +56,11 @@ RenderResult render(const Scene& scene, const Structure& structure, const Render
   const CameraRays camera(settings.camera, settings.width, settings.height, settings.spp, settings.seed);
   if (settings.ao_radius == 0) settings.ao_radius = default_ao_radius(scene.bounds());
   const Surfaces surfaces(scene);
-  const ShadingContext context{scene, surfaces, settings};
+  Light white_sky;
+  white_sky.kind = LightKind::sky;
+  const Lights lights(scene, surfaces, white_sky);
+  const LightRig rig = make_light_rig(settings.lights, scene, surfaces, settings.camera);
+  const ShadingContext context{scene, surfaces, lights, rig, settings};
 
   RenderResult result;
   result.image = Image(settings.width, settings.height);

@@ -6,7 +6,7 @@
 namespace boxwood {
 
 /// What a random number decides. Each use has numbers of its own, so adding one never changes another.
-enum class RandomUse : std::uint8_t { camera, light, ao, diffuse, random_ray, axis_ray, grazing_ray };
+enum class RandomUse : std::uint8_t { camera, light, ao, diffuse, random_ray, axis_ray, grazing_ray, block, path };
 
 /// Random numbers of one sample: a function of its arguments only, so nothing depends on threads or order. `depth`
 /// tells bounces apart.

@@ -18,11 +18,11 @@ Ray ao_ray(const SurfacePoint& point, const Vec3& incoming, float radius, Random
   return ray;
 }
 
-Ray shadow_ray(const SurfacePoint& point, const Vec3& incoming, const Vec3& light) {
+Ray shadow_ray(const SurfacePoint& point, const Vec3& incoming, const LightSample& light) {
   Ray ray;
   ray.origin = origin_off(point, incoming);
-  ray.direction = light - ray.origin;
-  ray.t_far = 0.9999f;
+  ray.direction = light.far_away ? light.target : light.target - ray.origin;
+  if (!light.far_away) ray.t_far = 0.9999f;
   return ray;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "boxwood/ray.h"
 #include "math/random.h"
+#include "render/lights.h"
 #include "render/surface.h"
 
 namespace boxwood {
@@ -17,8 +18,9 @@ Ray diffuse_ray(const SurfacePoint& point, const Vec3& incoming, Random& random)
 /// Like diffuse_ray, but ends after `radius` world units.
 Ray ao_ray(const SurfacePoint& point, const Vec3& incoming, float radius, Random& random);
 
-/// From the surface to just short of `light`: t counts in units of the distance between them.
-Ray shadow_ray(const SurfacePoint& point, const Vec3& incoming, const Vec3& light);
+/// From the surface to just short of where `light` was sampled, where t counts in units of the distance between them,
+/// or away in its direction.
+Ray shadow_ray(const SurfacePoint& point, const Vec3& incoming, const LightSample& light);
 
 /// Reach of ambient occlusion when none is asked for: a tenth of the scene's diagonal.
 float default_ao_radius(const Box& scene);

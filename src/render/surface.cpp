@@ -55,11 +55,14 @@ SurfacePoint Surfaces::at(std::uint32_t instance_index, std::uint32_t primitive,
   const double reach = std::max({largest_component(a), largest_component(b), largest_component(c)});
   point.clearance = static_cast<float>(reach * 0x1p-17);
 
-  point.material = &fallback_;
-  if (!mesh.materials.empty() && mesh.materials[primitive] < scene_.materials.size()) {
-    point.material = &scene_.materials[mesh.materials[primitive]];
-  }
+  point.material = &material(instance_index, primitive);
   return point;
+}
+
+const Material& Surfaces::material(std::uint32_t instance, std::uint32_t primitive) const {
+  const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
+  if (mesh.materials.empty() || mesh.materials[primitive] >= scene_.materials.size()) return fallback_;
+  return scene_.materials[mesh.materials[primitive]];
 }
 
 }  // namespace boxwood

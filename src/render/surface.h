@@ -26,6 +26,8 @@ class Surfaces {
   SurfacePoint at(const Hit& hit) const { return at(hit.instance, hit.primitive, hit.u, hit.v); }
   /// Point with barycentric weights 1 - u - v, u, v on a usable triangle of an instance.
   SurfacePoint at(std::uint32_t instance, std::uint32_t primitive, float u, float v) const;
+  /// Of a triangle; one that has none is a grey diffuse one.
+  const Material& material(std::uint32_t instance, std::uint32_t primitive) const;
 
  private:
   const Scene& scene_;

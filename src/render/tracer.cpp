@@ -1,16 +1,24 @@
 #include "render/tracer.h"
 
+#include <time.h>
+
 #include <algorithm>
-#include <chrono>
 
 namespace boxwood {
 namespace {
 
+/// CPU time of this thread, which other work on the machine does not lengthen.
+double thread_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 template <class Work>
 double seconds_of(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_seconds();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return thread_seconds() - begin;
 }
 
 std::uint64_t count_hits(std::span<const Hit> hits) {
@@ -21,20 +29,20 @@ std::uint64_t count_hits(std::span<const Hit> hits) {
 
 void Tracer::closest_hits(std::string_view kind, std::span<const Ray> rays, std::span<Hit> hits) {
   const double seconds = seconds_of([&] { structure_.closest_hits(rays, hits); });
-  add_report(reports_, {std::string(kind), rays.size(), count_hits(hits), seconds});
+  add_report(reports_, {std::string(kind), Query::closest_hit, rays.size(), count_hits(hits), seconds});
 }
 
 void Tracer::any_hits(std::string_view kind, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
   const double seconds = seconds_of([&] { structure_.any_hits(rays, blocked); });
   const auto hits =
       static_cast<std::uint64_t>(rays.size()) - static_cast<std::uint64_t>(std::ranges::count(blocked, 0));
-  add_report(reports_, {std::string(kind), rays.size(), hits, seconds});
+  add_report(reports_, {std::string(kind), Query::any_hit, rays.size(), hits, seconds});
 }
 
 void Tracer::closest_hits_counted(std::string_view kind, std::span<const Ray> rays, std::span<Hit> hits,
                                   std::span<RayCounters> counters) {
   const double seconds = seconds_of([&] { structure_.closest_hits_counted(rays, hits, counters); });
-  add_report(reports_, {std::string(kind), rays.size(), count_hits(hits), seconds});
+  add_report(reports_, {std::string(kind), Query::closest_hit, rays.size(), count_hits(hits), seconds});
 }
 
 void add_report(std::vector<RayKindReport>& reports, const RayKindReport& report) {

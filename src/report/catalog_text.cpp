@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "cost/registry.h"
 #include "report/number_text.h"
 #include "report/table.h"
 
@@ -61,6 +62,28 @@ void for_each_section(std::span<const Stage> stages, const Write& write) {
   }
 }
 
+/// What an option such as `cost` takes.
+std::string cost_models_text() {
+  std::string out = "\nCost models (values of an option that takes one, as in cost=rdh(alpha=0.5))\n";
+  for (const CostModelEntry& model : cost_models()) {
+    out += entry(model.name, fmt::format("{} [{}]", model.summary, model.source),
+                 option_table(model.options, model.defaults, ""));
+  }
+  return out;
+}
+
+std::string cost_models_markdown() {
+  std::string out =
+      "\n## Cost models\n\nvalues of an option that takes one, as in `cost=rdh(alpha=0.5)`; what they mean: "
+      "[cost models](cost-models.md).\n";
+  for (const CostModelEntry& model : cost_models()) {
+    out += fmt::format("\n### `{}`\n\n{}. Source: {}.\n", model.name, model.summary, model.source);
+    const Table options = option_table(model.options, model.defaults, "`");
+    if (!options.empty()) out += fmt::format("\n{}", options.markdown());
+  }
+  return out;
+}
+
 Table preset_table(std::span<const Preset> presets, std::string_view code) {
   Table table({{"preset", Align::left}, {"stands for", Align::left}, {"", Align::left}});
   for (const Preset& preset : presets) {
@@ -87,7 +110,7 @@ std::string recipes_text(std::span<const Stage> stages, std::span<const Preset> 
     out += entry(stage.name, fmt::format("{} [{}]", stage.summary, stage.source),
                  option_table(stage.options, stage.defaults, ""));
   });
-  return fmt::format("{}\n{}", out, preset_table(presets, "").text());
+  return fmt::format("{}{}\n{}", out, cost_models_text(), preset_table(presets, "").text());
 }
 
 std::string recipes_markdown(std::span<const Stage> stages, std::span<const Preset> presets) {
@@ -103,7 +126,7 @@ std::string recipes_markdown(std::span<const Stage> stages, std::span<const Pres
     const Table options = option_table(stage.options, stage.defaults, "`");
     if (!options.empty()) out += fmt::format("\n{}", options.markdown());
   });
-  return fmt::format("{}\n## Presets\n\n{}", out, preset_table(presets, "`").markdown());
+  return fmt::format("{}{}\n## Presets\n\n{}", out, cost_models_markdown(), preset_table(presets, "`").markdown());
 }
 
 std::string scenes_text(std::span<const Generator> generators, std::span<const SceneSource> sources) {

@@ -1,5 +1,6 @@
 #include "report/json.h"
 
+#include "cost/registry.h"
 #include "report/catalog_text.h"
 
 namespace boxwood {
@@ -28,6 +29,15 @@ Json options_json(std::span<const Option> options, const std::any& defaults) {
                    {"help", option.help}});
   }
   return out;
+}
+
+const char* query_name(Query query) { return query == Query::closest_hit ? "closest_hit" : "any_hit"; }
+
+Json traced_json(const RayKindReport& report) {
+  return {{"rays", report.rays},
+          {"hits", report.hits},
+          {"trace_ms", measured_once(report.trace_seconds * 1000)},
+          {"mrays_per_s", measured_once(mrays_per_s(report))}};
 }
 
 }  // namespace
@@ -82,11 +92,14 @@ Json to_json(const ImportNotes& notes) {
 
 Json to_json(const Camera& camera) {
   const auto list = [](const Vec3& v) { return Json{v.x, v.y, v.z}; };
-  return {{"name", camera.name},
-          {"eye", list(camera.eye)},
-          {"direction", list(camera.direction)},
-          {"up", list(camera.up)},
-          {"fov", camera.fov}};
+  Json out = {{"name", camera.name},
+              {"eye", list(camera.eye)},
+              {"direction", list(camera.direction)},
+              {"up", list(camera.up)},
+              {"fov", camera.fov}};
+  if (camera.mirrored) out["mirrored"] = true;
+  if (camera.width > 0) out["size"] = {camera.width, camera.height};
+  return out;
 }
 
 double mrays_per_s(const RayKindReport& report) {
@@ -96,8 +109,23 @@ double mrays_per_s(const RayKindReport& report) {
 Json to_json(std::span<const RayKindReport> ray_kinds) {
   Json out = Json::object();
   for (const RayKindReport& report : ray_kinds) {
-    out[report.kind] = {
-        {"rays", report.rays}, {"hits", report.hits}, {"mrays_per_s", measured_once(mrays_per_s(report))}};
+    out[report.kind] = {{"query", query_name(report.query)}};
+    out[report.kind].update(traced_json(report));
+  }
+  return out;
+}
+
+Json totals_by_query(std::span<const RayKindReport> ray_kinds) {
+  Json out = Json::object();
+  for (const Query query : {Query::closest_hit, Query::any_hit}) {
+    RayKindReport total;
+    for (const RayKindReport& report : ray_kinds) {
+      if (report.query != query) continue;
+      total.rays += report.rays;
+      total.hits += report.hits;
+      total.trace_seconds += report.trace_seconds;
+    }
+    out[query_name(query)] = traced_json(total);
   }
   return out;
 }
@@ -115,7 +143,14 @@ Json to_json(std::span<const Stage> stages, std::span<const Preset> presets) {
   for (const Preset& preset : presets) {
     preset_list.push_back({{"name", preset.name}, {"recipe", preset.text}, {"summary", preset.summary}});
   }
-  return {{"stages", stage_list}, {"presets", preset_list}};
+  Json cost_list = Json::array();
+  for (const CostModelEntry& model : cost_models()) {
+    cost_list.push_back({{"name", model.name},
+                         {"summary", model.summary},
+                         {"source", model.source},
+                         {"options", options_json(model.options, model.defaults)}});
+  }
+  return {{"stages", stage_list}, {"cost_models", cost_list}, {"presets", preset_list}};
 }
 
 Json to_json(std::span<const Generator> generators, std::span<const SceneSource> sources) {

@@ -28,8 +28,10 @@ Json to_json(const TreeStatistics& statistics);
 Json to_json(const ImportNotes& notes);
 /// The entry of a camera sidecar.
 Json to_json(const Camera& camera);
-/// {KIND: {"rays", "hits", "mrays_per_s"}}; the rate is that of one thread.
+/// {KIND: {"query", "rays", "hits", "trace_ms", "mrays_per_s"}}; CPU time of all threads, the rate is that of one.
 Json to_json(std::span<const RayKindReport> ray_kinds);
+/// {"closest_hit": {"rays", "hits", "trace_ms", "mrays_per_s"}, "any_hit": {…}}: the same, summed by query.
+Json totals_by_query(std::span<const RayKindReport> ray_kinds);
 Json to_json(std::span<const Stage> stages, std::span<const Preset> presets);
 Json to_json(std::span<const Generator> generators, std::span<const SceneSource> sources);
 

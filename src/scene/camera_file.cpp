@@ -1,4 +1,5 @@
-// The camera sidecar: {"cameras": [{"name", "eye": [x,y,z], "direction": [x,y,z], "up": [x,y,z], "fov": degrees}]}
+// The camera sidecar: {"cameras": [{"name", "eye": [x,y,z], "direction": [x,y,z], "up": [x,y,z], "fov": degrees}]};
+// "mirrored": true and "size": [width, height] are optional.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace boxwood {
 namespace {
 
 using Json = nlohmann::json;
-const std::vector<std::string> fields = {"name", "eye", "direction", "up", "fov"};
+const std::vector<std::string> fields = {"name", "eye", "direction", "up", "fov", "mirrored", "size"};
 
 /// One camera of the file, with what an error needs to say where it is.
 class CameraReader {
@@ -39,10 +40,28 @@ class CameraReader {
     if (camera.direction == Vec3{} || camera.up == Vec3{}) fail("fields 'direction' and 'up' must not be zero");
     camera.fov = number(at("fov"), "fov");
     if (!(camera.fov > 0 && camera.fov < 180)) fail("field 'fov' must be an angle between 0 and 180 degrees");
+    read_optional_fields(camera);
     return camera;
   }
 
  private:
+  void read_optional_fields(Camera& camera) const {
+    if (const auto mirrored = json_.find("mirrored"); mirrored != json_.end()) {
+      if (!mirrored->is_boolean()) fail("field 'mirrored' must be true or false");
+      camera.mirrored = mirrored->get<bool>();
+    }
+    if (const auto size = json_.find("size"); size != json_.end()) {
+      const auto is_side = [](const Json& side) {
+        return side.is_number_unsigned() && side >= 1 && side <= largest_camera_side;
+      };
+      if (!size->is_array() || size->size() != 2 || !is_side((*size)[0]) || !is_side((*size)[1])) {
+        fail(fmt::format("field 'size' must be an array of width and height, each 1 to {}", largest_camera_side));
+      }
+      camera.width = (*size)[0].get<std::uint32_t>();
+      camera.height = (*size)[1].get<std::uint32_t>();
+    }
+  }
+
   [[noreturn]] void fail(std::string_view what) const { throw Error(fmt::format("{} {}", place_, what)); }
 
   const Json& at(const char* field) const {
@@ -69,6 +88,12 @@ class CameraReader {
 };
 
 std::string print(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+std::string print_optional_fields(const Camera& camera) {
+  std::string text = camera.mirrored ? ", \"mirrored\": true" : "";
+  if (camera.width > 0) text += fmt::format(", \"size\": [{}, {}]", camera.width, camera.height);
+  return text;
+}
 
 }  // namespace
 
@@ -108,9 +133,10 @@ void write_cameras(const std::filesystem::path& file, std::span<const Camera> ca
       throw Error(
           fmt::format("{}: the camera '{}' has a number that is not finite; mend it", file.string(), camera.name));
     }
-    text += fmt::format("  {{\"name\": {}, \"eye\": {}, \"direction\": {}, \"up\": {}, \"fov\": {}}}{}\n",
+    text += fmt::format("  {{\"name\": {}, \"eye\": {}, \"direction\": {}, \"up\": {}, \"fov\": {}{}}}{}\n",
                         Json(camera.name).dump(-1, ' ', false, Json::error_handler_t::replace), print(camera.eye),
-                        print(camera.direction), print(camera.up), camera.fov, i + 1 < cameras.size() ? "," : "");
+                        print(camera.direction), print(camera.up), camera.fov, print_optional_fields(camera),
+                        i + 1 < cameras.size() ? "," : "");
   }
   text += "]}\n";
   OutputFile out(file);

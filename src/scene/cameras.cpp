@@ -55,7 +55,7 @@ Camera on_spline(std::span<const Camera> keys, double position) {
   const auto along = [&](auto value) {
     return catmull_rom(value(key(-1)), value(key(0)), value(key(1)), value(key(2)), t);
   };
-  Camera camera;
+  Camera camera = key(0);
   camera.eye = along([](const Camera& c) { return c.eye; });
   camera.direction =
       unit_or(along([](const Camera& c) { return normalize(c.direction); }), normalize(key(0).direction));

@@ -27,7 +27,10 @@ std::vector<Camera> spline_path(std::span<const Camera> key_frames, std::uint32_
 /// Where the cameras of a scene file are kept: its name with .cameras.json in place of its extension or, where only
 /// that exists, the name of its folder with .cameras.json, beside the folder.
 std::filesystem::path camera_sidecar(const std::filesystem::path& scene_file);
-/// Reads {"cameras": [{"name", "eye", "direction", "up", "fov"}]}. Throws Error naming the file and the field.
+/// Pixels that a camera may ask for on one side.
+inline constexpr std::uint32_t largest_camera_side = 16384;
+/// Reads {"cameras": [{"name", "eye", "direction", "up", "fov"}]}, each optionally with "mirrored" and "size". Throws
+/// Error naming the file and the field.
 std::vector<Camera> read_cameras(const std::filesystem::path& file);
 /// Writes the same format; numbers read back exactly. An existing file is replaced only once the new one is complete.
 void write_cameras(const std::filesystem::path& file, std::span<const Camera> cameras);

@@ -45,9 +45,7 @@ Scene generate(std::string_view text) {
   const CallText call = parse_call_text(text);
   const Generator& generator = find_generator(call.name);
   std::any options = generator.defaults;
-  for (const std::string_view argument : call.arguments) {
-    set_option(generator.name, generator.options, options, argument);
-  }
+  set_options(generator.options, options, call);
   Scene scene = generator.make(options);
   scene.name = trim(text);
   return scene;

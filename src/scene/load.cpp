@@ -13,14 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::uintmax_t total_size(std::span<const fs::path> files) {
+  std::uintmax_t total = 0;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (!error) total += size;
+  }
+  return total;
+}
+
 /// Meshes, merged and counted, without cameras other than the file's.
 Scene import_and_merge(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  const bool cached = !error && size >= smallest_cached_file;
-  if (cached) {
-    if (std::optional<Scene> earlier = read_cached(file)) return std::move(*earlier);
-  }
+  if (std::optional<Scene> earlier = read_cached(file)) return std::move(*earlier);
   Imported imported = import_file(file);
   if (const std::string problem = find_bad_index(imported.scene); !problem.empty()) {
     throw Error(fmt::format("{}: {}; the file is damaged, get it again", file.string(), problem));
@@ -31,7 +36,7 @@ Scene import_and_merge(const fs::path& file) {
   if (scene.empty()) {
     scene.notes.messages.push_back(fmt::format("{}: has no triangles; nothing in it can be hit", file.string()));
   }
-  if (cached) write_cached(scene, imported.files);
+  if (total_size(imported.files) >= smallest_cached_file) write_cached(scene, imported.files);
   return scene;
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise the number when importers or this layout change what a file becomes. The order of its bytes marks endianness.
-constexpr std::uint64_t magic = 0x0001'6568'6361'6378u;
+constexpr std::uint64_t magic = 0x0002'6568'6361'6378u;
 
 /// Order-sensitive checksum of blocks, eight bytes at a time.
 class Checksum {
@@ -139,19 +139,27 @@ void transfer(Stream& stream, S& scene) {
   stream.array(scene.instances);
   stream.list(scene.materials, [&](auto& material) {
     stream.array(material.name);
-    for (auto* color : {&material.diffuse, &material.emission, &material.specular}) stream.value(*color);
-    for (auto* number : {&material.shininess, &material.opacity, &material.refraction_index}) stream.value(*number);
+    for (auto* color :
+         {&material.diffuse, &material.emission, &material.specular, &material.reflection, &material.transmission}) {
+      stream.value(*color);
+    }
+    for (auto* number : {&material.shininess, &material.refraction_index}) stream.value(*number);
+    stream.value(material.emits_behind);
   });
   stream.list(scene.cameras, [&](auto& camera) {
     stream.array(camera.name);
     for (auto* vector : {&camera.eye, &camera.direction, &camera.up}) stream.value(*vector);
     stream.value(camera.fov);
+    stream.value(camera.mirrored);
+    for (auto* pixels : {&camera.width, &camera.height}) stream.value(*pixels);
   });
   stream.array(scene.lights);
   stream.value(scene.notes.degenerate_triangles);
   stream.value(scene.notes.non_finite_triangles);
   stream.list(scene.notes.messages, [&](auto& message) { stream.array(message); });
 }
+
+constexpr std::uint64_t no_size = ~std::uint64_t{0};
 
 /// A file as it was when a scene was made from it.
 struct Source {
@@ -161,8 +169,10 @@ struct Source {
   friend bool operator==(const Source&, const Source&) = default;
 };
 
+/// A file that was looked for in vain must still be missing.
 Source describe(const fs::path& file) {
   const fs::path absolute = fs::absolute(file).lexically_normal();
+  if (!fs::exists(absolute)) return {absolute.string(), no_size, 0};
   return {absolute.string(), fs::file_size(absolute),
           static_cast<std::int64_t>(fs::last_write_time(absolute).time_since_epoch().count())};
 }

@@ -11,7 +11,7 @@ namespace boxwood {
 // $BOXWOOD_CACHE, else $XDG_CACHE_HOME/boxwood, else ~/.cache/boxwood; BOXWOOD_CACHE=off turns the cache off. It never
 // changes a result: what cannot be read back whole is imported again, what cannot be written is not kept.
 
-/// Files below this size import fast enough.
+/// Scenes whose files are smaller together import fast enough.
 inline constexpr std::uintmax_t smallest_cached_file = 4u << 20;
 
 /// The scene imported from `file` earlier; nothing when there is none, a file that it was made from has changed since

@@ -16,12 +16,6 @@ struct Offsets {
   std::size_t position = 0, triangle = 0;
 };
 
-/// Maps normals: the transposed inverse up to a factor, which also exists for singular maps.
-Vec3 map_normal(const Transform& t, const Vec3& n) {
-  const float side = t.determinant() < 0 ? -1.0f : 1.0f;
-  return normalize((cross(t.y, t.z) * n.x + cross(t.z, t.x) * n.y + cross(t.x, t.y) * n.z) * side);
-}
-
 template <class Body>
 void for_each_index(std::size_t count, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1 << 14), [&](const auto& range) {
@@ -108,6 +102,12 @@ std::string find_bad_index(const Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
+Vec3 map_normal(const Transform& t, const Vec3& n) {
+  // The transposed inverse up to a factor, which also exists for singular maps.
+  const float side = t.determinant() < 0 ? -1.0f : 1.0f;
+  return normalize((cross(t.y, t.z) * n.x + cross(t.z, t.x) * n.y + cross(t.x, t.y) * n.z) * side);
+}
+
 Mesh merge_placed(std::span<const Mesh> meshes, std::span<const Instance> instances, std::vector<Material>& materials) {
   std::vector<Offsets> offsets(instances.size() + 1);
   bool any_materials = false, all_materials = true, any_normals = false, any_texture = false;
@@ -156,7 +156,9 @@ Scene merge_single_placements(Scene scene) {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   if (!once.empty() || several.empty()) {
-    meshes.push_back(merge_placed(scene.meshes, once, scene.materials));
+    const bool merged = once.size() == 1 && once[0].object_to_world == Transform{};
+    meshes.push_back(merged ? std::move(scene.meshes[once[0].mesh])
+                            : merge_placed(scene.meshes, once, scene.materials));
     instances.push_back({0, {}});
   }
   constexpr std::uint32_t not_moved = 0xffffffffu;

@@ -12,6 +12,9 @@ namespace boxwood {
 /// triangles.
 Mesh merge_placed(std::span<const Mesh> meshes, std::span<const Instance> instances, std::vector<Material>& materials);
 
+/// Maps a normal as the surface around it is mapped; unit length, or zero.
+Vec3 map_normal(const Transform& transform, const Vec3& normal);
+
 /// Merges everything that is placed once, or by a transform that has no inverse, into one world-space mesh, the first;
 /// meshes placed several times stay as they are. Meshes that are not placed are dropped.
 Scene merge_single_placements(Scene scene);

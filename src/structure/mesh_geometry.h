@@ -25,7 +25,10 @@ class MeshGeometry final : public Geometry {
 /// Bounds of the usable triangles. O(n).
 Box usable_bounds(const Mesh& mesh);
 
-/// One reference per instance whose mesh has a usable triangle, with the world box of that mesh's box.
-std::vector<Reference> instance_references(const Scene& scene, std::span<const Box> mesh_boxes);
+/// World boxes of all instances; empty where a mesh has no usable triangle. O(triangles).
+std::vector<Box> instance_boxes(const Scene& scene);
+
+/// One reference per instance that has a box, by number.
+std::vector<Reference> instance_references(std::span<const Box> boxes);
 
 }  // namespace boxwood

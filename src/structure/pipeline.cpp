@@ -29,8 +29,9 @@ Pipeline::Pipeline(const Recipe& recipe) {
 }
 
 Tree Pipeline::tree(BuildInput input) const {
+  const RefineContext context{input.geometry, input.use};
   Tree tree = builder_->stage->build(builder_->options, std::move(input));
-  for (const StageCall* call : refinements_) tree = call->stage->refine(call->options, std::move(tree));
+  for (const StageCall* call : refinements_) tree = call->stage->refine(call->options, std::move(tree), context);
   return tree;
 }
 
@@ -38,9 +39,9 @@ std::shared_ptr<const Layout> Pipeline::encode(Tree tree, const Contents& conten
   return layout_->stage->encode(layout_->options, std::move(tree), contents, trace_);
 }
 
-Tree tree_of(const Mesh& mesh, const Recipe& recipe) {
+Tree tree_of(const Mesh& mesh, const Recipe& recipe, const KnownUse* use) {
   const MeshGeometry geometry(mesh);
-  return Pipeline(recipe).tree({geometry.references(), &geometry});
+  return Pipeline(recipe).tree({geometry.references(), &geometry, use});
 }
 
 }  // namespace boxwood

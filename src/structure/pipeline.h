@@ -26,7 +26,7 @@ class Pipeline {
 };
 
 /// The tree that a recipe lays out for one mesh: its builder and refinements, without the layout. Throws UsageError for
-/// a peer, whose trees cannot be seen.
-Tree tree_of(const Mesh& mesh, const Recipe& recipe);
+/// a peer, whose trees cannot be seen. `use`: null when nothing is known of the rays to come.
+Tree tree_of(const Mesh& mesh, const Recipe& recipe, const KnownUse* use = nullptr);
 
 }  // namespace boxwood

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <vector>
 
 #include "layout/layout.h"
 #include "recipe/stage.h"
 #include "structure/mesh_geometry.h"
+#include "structure/object_use.h"
 #include "structure/pipeline.h"
 #include "tree/statistics.h"
 
@@ -22,6 +24,18 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+void add(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
+  for (const LayoutFact& fact : facts) {
+    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
+    if (sum == sums.end()) {
+      sums.push_back(fact);
+    } else {
+      sum->value += fact.value;
+      sum->per += fact.per;
+    }
+  }
 }
 
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
@@ -36,13 +50,15 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   auto layout = pipeline.encode(std::move(tree), contents);
   report.build_ms += milliseconds_since(begin_layout);
   report.bytes += layout->bytes();
+  add(report.facts, layout->facts());
   return layout;
 }
 
-std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, BuildReport& report) {
+std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, const KnownUse* use,
+                                         BuildReport& report) {
   const auto begin = Clock::now();
   const MeshGeometry geometry(mesh);
-  BuildInput input{geometry.references(), &geometry};
+  BuildInput input{geometry.references(), &geometry, use};
   report.build_ms += milliseconds_since(begin);
   report.primitives += input.references.size();
   report.left_out += mesh.triangles.size() - input.references.size();
@@ -51,17 +67,41 @@ std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipel
   return build_level(pipeline, std::move(input), contents, report);
 }
 
-std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipeline& pipeline, BuildReport& report) {
+std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipeline& pipeline, const ExpectedUse* use,
+                                               BuildReport& report) {
+  const std::vector<Box> boxes = instance_boxes(scene);
+  std::optional<KnownUse> known;
+  const auto known_to = [&](const auto& make) { return use ? &known.emplace(make()) : nullptr; };
+
   std::vector<std::shared_ptr<const Layout>> bottoms;
-  std::vector<Box> boxes;
-  for (const Mesh& mesh : scene.meshes) {
-    boxes.push_back(usable_bounds(mesh));
-    bottoms.push_back(build_mesh(mesh, pipeline, report));
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const KnownUse* of_mesh = known_to([&] { return use_of_mesh(*use, scene, m, boxes); });
+    bottoms.push_back(build_mesh(scene.meshes[m], pipeline, of_mesh, report));
   }
   Contents contents;
   contents.instances = scene.instances;
   contents.bottoms = bottoms;
-  return build_level(pipeline, {instance_references(scene, boxes), nullptr}, contents, report);
+  const KnownUse* of_instances = known_to([&] { return use_of_instances(*use, scene); });
+  return build_level(pipeline, {instance_references(boxes), nullptr, of_instances}, contents, report);
+}
+
+void check_same_length(std::size_t rays, std::size_t answers) {
+  if (rays != answers) throw UsageError(fmt::format("{} rays need as many answers, not {}", rays, answers));
+}
+
+/// The use, where the recipe looks at it; null where it does not. Throws UsageError on one that does not fit the scene.
+const ExpectedUse* checked_use(const Scene& scene, const Recipe& recipe, const BuildOptions& options) {
+  if (!options.use || !needs_use(recipe)) return nullptr;
+  for (const ExpectedRays& rays : options.use->rays) check_same_length(rays.rays.size(), rays.ends.size());
+  for (const SeenTriangle& seen : options.use->seen) {
+    if (seen.instance < scene.instances.size() &&
+        seen.primitive < scene.meshes[scene.instances[seen.instance].mesh].triangles.size()) {
+      continue;
+    }
+    throw UsageError(fmt::format("the expected use has seen triangle {} of instance {}, which {} does not have",
+                                 seen.primitive, seen.instance, scene.name.empty() ? "the scene" : scene.name));
+  }
+  return options.use;
 }
 
 std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& scene, BuildReport& report) {
@@ -73,11 +113,13 @@ std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& sce
   return layout;
 }
 
-void check_same_length(std::size_t rays, std::size_t answers) {
-  if (rays != answers) throw UsageError(fmt::format("{} rays need as many answers, not {}", rays, answers));
-}
-
 }  // namespace
+
+bool needs_use(const Recipe& recipe) {
+  return std::ranges::any_of(recipe.stages(), [](const StageCall& call) {
+    return call.stage->needs_use && call.stage->needs_use(call.options);
+  });
+}
 
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options) {
   BuildReport report;
@@ -89,15 +131,18 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
   arena.execute([&] {
     const StageCall& first = recipe.stages().front();
+    const ExpectedUse* use = checked_use(scene, recipe, options);
     if (first.stage->kind == StageKind::peer) {
       layout = build_peer(first, scene, report);
     } else if (scene.single_level()) {
-      layout = build_mesh(scene.meshes.front(), Pipeline(recipe), report);
+      std::optional<KnownUse> known;
+      if (use) known = use_of_mesh(*use, scene, 0, {});
+      layout = build_mesh(scene.meshes.front(), Pipeline(recipe), use ? &*known : nullptr, report);
     } else {
-      layout = build_two_levels(scene, Pipeline(recipe), report);
+      layout = build_two_levels(scene, Pipeline(recipe), use, report);
     }
   });
-  return {std::move(layout), report, recipe};
+  return {std::move(layout), std::move(report), recipe};
 }
 
 Structure build(const Scene& scene, std::string_view recipe, const BuildOptions& options) {
@@ -105,7 +150,7 @@ Structure build(const Scene& scene, std::string_view recipe, const BuildOptions&
 }
 
 Structure::Structure(std::shared_ptr<const Layout> layout, BuildReport report, Recipe recipe)
-    : layout_(std::move(layout)), report_(report), recipe_(std::move(recipe)) {}
+    : layout_(std::move(layout)), report_(std::move(report)), recipe_(std::move(recipe)) {}
 
 Hit Structure::closest_hit(const Ray& ray) const { return layout_->closest_hit(ray); }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "boxwood/box.h"
+#include "tree/octree_cells.h"
 
 namespace boxwood {
 
@@ -16,7 +17,9 @@ namespace boxwood {
 ///  * an inner node has `count` >= 2 children at nodes[first … first + count), each after its parent in the array;
 ///  * a leaf holds `count` >= 1 entries references[first … first + count); every reference belongs to one leaf;
 ///  * a child's box lies inside its parent's; a leaf's box holds its primitives' boxes, or, when `clipped_leaves` is
-///    set (spatial splits, octrees), all leaves of a primitive together hold the parts of it that lie in the scene.
+///    set (spatial splits, octrees), all leaves of a primitive together hold the parts of it that lie in the scene;
+///  * `cells` is empty, or has the cell of every node: a child's lies in an octant of its parent's, siblings' in
+///    different ones, and a node's box lies inside its cell.
 struct Tree {
   struct Node {
     Box bounds;
@@ -35,9 +38,13 @@ struct Tree {
   std::vector<Node> nodes;
   std::vector<std::uint32_t> references;  ///< primitive numbers, leaf by leaf
   bool clipped_leaves = false;
+  OctreeCells cells;  ///< only of trees that divide space into octants
 
   bool empty() const { return nodes.empty(); }
-  std::size_t bytes() const { return nodes.capacity() * sizeof(Node) + references.capacity() * sizeof(std::uint32_t); }
+  std::size_t bytes() const {
+    return nodes.capacity() * sizeof(Node) + references.capacity() * sizeof(std::uint32_t) +
+           cells.codes.capacity() * sizeof(OctreeCode);
+  }
 };
 static_assert(sizeof(Tree::Node) == 32, "two nodes per cache line");
 

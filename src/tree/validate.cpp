@@ -20,8 +20,9 @@ class Validator {
         return fmt::format("there are {} references but no nodes", tree_.references.size());
       return primitives();
     }
-    for (const auto check : {&Validator::shape, &Validator::reachability, &Validator::leaf_spans,
-                             &Validator::primitives, &Validator::containment, &Validator::coverage}) {
+    for (const auto check :
+         {&Validator::shape, &Validator::reachability, &Validator::leaf_spans, &Validator::primitives,
+          &Validator::containment, &Validator::coverage, &Validator::cells}) {
       if (std::string violation = (this->*check)(); !violation.empty()) return violation;
     }
     return {};
@@ -144,6 +145,31 @@ class Validator {
         if (intersect(nodes_[i].bounds, bounds_[primitive]).empty()) {
           return fmt::format("the box of leaf {} does not touch that of primitive {}", i, primitive);
         }
+      }
+    }
+    return {};
+  }
+
+  std::string cells() const {
+    const std::vector<OctreeCode>& codes = tree_.cells.codes;
+    if (codes.empty()) return {};
+    if (codes.size() != nodes_.size())
+      return fmt::format("there are {} cells for {} nodes", codes.size(), nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (codes[i] == 0) return fmt::format("node {} has no cell", i);
+      if (!octree_cell(codes[i]).box(tree_.cells.grid).contains(nodes_[i].bounds)) {
+        return fmt::format("the box of node {} is not inside its cell", i);
+      }
+      std::uint32_t octants = 0;
+      for (std::size_t c = nodes_[i].first; !nodes_[i].is_leaf() && c < std::size_t{nodes_[i].first} + nodes_[i].count;
+           ++c) {
+        const std::uint32_t level = octree_level(codes[i]), below = octree_level(codes[c]);
+        if (below <= level || codes[c] >> 3 * (below - level) != codes[i]) {
+          return fmt::format("the cell of node {} is not inside that of its parent, node {}", c, i);
+        }
+        const std::uint32_t octant = 1u << octree_octant(codes[c], level + 1);
+        if (octants & octant) return fmt::format("two children of node {} lie in the same octant", i);
+        octants |= octant;
       }
     }
     return {};

@@ -38,10 +38,13 @@ std::vector<Case> cases() {
     all.push_back({builder + "leaf=1)", 2, 1});
     all.push_back({builder + "pairs=on, traversal_cost=1.2, leaf=1048576)", 2, 1048576});
     all.push_back({builder + "traversal_cost=0)", 2, 4});
-    for (const std::string& cost : cost_model_names()) {
-      all.push_back({builder + "cost=" + cost + ")", 2, 4});
-      all.push_back({builder + "cost=" + cost + ", k=8)", 8, 4});
+    for (const CostModelEntry& cost : cost_models()) {
+      all.push_back({builder + "cost=" + cost.name + ")", 2, 4});
+      all.push_back({builder + "cost=" + cost.name + ", leaf_test=area, k=8)", 8, 4});
     }
+    all.push_back({builder + "cost=rdh(among=children, segments=off), leaf=64)", 2, 64});
+    all.push_back({builder + "cost=perspective(literal=on), leaf=1048576)", 2, 1048576});
+    all.push_back({builder + "cost=blend(rdh(beta=1), blend(osah, interior-hq), 0.25))", 2, 4});
   }
   for (const std::string bins : {"2", "10", "12", "256"}) {
     all.push_back({"binned(exact=0, bins=" + bins + ")", 2, 4});

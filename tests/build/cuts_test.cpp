@@ -115,7 +115,15 @@ struct BoxItems {
   std::vector<std::uint32_t> counts;
   Box4 box(std::uint32_t i) const { return boxes[i]; }
   std::uint32_t count(std::uint32_t i) const { return counts[i]; }
+  std::uint32_t seen(std::uint32_t) const { return 0; }
 };
+
+/// What pricing needs to know of a node.
+ReferenceSet set_in(const Box4& bounds) {
+  ReferenceSet set;
+  set.bounds = bounds;
+  return set;
+}
 
 TEST(BestCuts, InlinedSurfaceArea_SamePricesAsTheModel) {
   const std::vector<Box> boxes = random_boxes(100);
@@ -129,8 +137,8 @@ TEST(BestCuts, InlinedSurfaceArea_SamePricesAsTheModel) {
   const SurfaceArea model;
   SurfaceAreaPricing inlined;
   ModelPricing asked(model);
-  ASSERT_TRUE(inlined.begin(bounds));
-  ASSERT_TRUE(asked.begin(bounds));
+  ASSERT_TRUE(inlined.begin(set_in(bounds)));
+  ASSERT_TRUE(asked.begin(set_in(bounds)));
   for (const std::uint32_t k : {2u, 4u, 16u}) {
     const BestCuts a = best_cuts(items, inlined, 100, k), b = best_cuts(items, asked, 100, k);
     ASSERT_EQ(a.count, b.count);
@@ -146,7 +154,7 @@ TEST(BestCuts, OnlyOneItemHoldsReferences_NoCut) {
   items.boxes[3] = box4(Reference{{0, 0, 0}, 0, {1, 1, 1}});
   items.counts[3] = 5;
   SurfaceAreaPricing pricing;
-  ASSERT_TRUE(pricing.begin(items.boxes[3]));
+  ASSERT_TRUE(pricing.begin(set_in(items.boxes[3])));
   EXPECT_EQ(best_cuts(items, pricing, 8, 4).count, 0u);
 }
 

@@ -1,5 +1,6 @@
 // What builders are tried on, and how their stages are called by name.
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,31 @@ inline BuildInput input_of(const std::vector<Box>& boxes, const Geometry* geomet
   return input;
 }
 
+/// Rays to and fro through the boxes, every third primitive seen, a camera among them and one outside.
+inline KnownUse use_of(const std::vector<Box>& boxes) {
+  KnownUse use;
+  Box all;
+  for (const Box& box : boxes) all.grow(box);
+  use.seen.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); i += 3) use.seen[i] = 1;
+  if (all.empty()) return use;
+  Random random(99);
+  ExpectedRays rays{"primary", Query::closest_hit, {}, {}};
+  for (int i = 0; i < 300; ++i) {
+    Ray ray;
+    ray.origin = all.lower + all.extent() * random_point(random);
+    ray.direction = all.extent() * (random_point(random) - Vec3{0.5f, 0.5f, 0.5f});
+    rays.rays.push_back(ray);
+    rays.ends.push_back(i % 4 == 0 ? std::numeric_limits<float>::infinity() : random.uniform());
+  }
+  use.rays.push_back(std::move(rays));
+  const float size = length(all.extent());
+  for (const float away : {0.0f, 2.0f}) {
+    use.windows.push_back({all.center() - Vec3{0, 0, away * size}, {0.1f, 0, 1}, {0.5f, 0, 0}, {0, 0.5f, 0}});
+  }
+  return use;
+}
+
 /// Geometry whose centroids are not the boxes' centres.
 class LopsidedGeometry final : public Geometry {
  public:
@@ -93,9 +119,7 @@ inline StageCall stage_call(const std::vector<Stage>& stages, const std::string&
   for (const Stage& stage : stages) {
     if (stage.name != call.name) continue;
     StageCall result{&stage, stage.defaults};
-    for (const std::string_view argument : call.arguments) {
-      set_option(stage.name, stage.options, result.options, argument);
-    }
+    set_options(stage.options, result.options, call);
     return result;
   }
   throw UsageError("no stage '" + text + "'");
@@ -109,7 +133,10 @@ inline const std::vector<Stage>& builder_stages() {
 inline Tree build_tree(const std::string& text, const std::vector<Box>& boxes) {
   const LopsidedGeometry geometry(boxes);
   const StageCall call = stage_call(builder_stages(), text);
-  return call.stage->build(call.options, input_of(boxes, &geometry));
+  const KnownUse use = use_of(boxes);
+  BuildInput input = input_of(boxes, &geometry);
+  input.use = &use;
+  return call.stage->build(call.options, std::move(input));
 }
 
 }  // namespace boxwood

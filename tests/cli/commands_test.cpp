@@ -1,6 +1,7 @@
 // What the commands do when all is well.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <set>
 
@@ -26,6 +27,22 @@ void expect_estimate(const json& value, std::uint64_t n) {
   EXPECT_LE(value.at("low"), value.at("median"));
   EXPECT_LE(value.at("median"), value.at("high"));
   EXPECT_EQ(value.at("n"), n);
+}
+
+TEST(Inspect, Json_TellsWhatTheLayoutTellsOfItself) {
+  const json layout =
+      run_for_json({"inspect", "generate:sphere(30)", "-a", "octree > bit-octree(chunk=32)"}).at("layout");
+  EXPECT_EQ(layout.at("topology_bytes"), 32 * layout.at("chunks").get<double>());
+  EXPECT_GT(layout.at("chunk_fill"), 0);
+  EXPECT_GE(layout.at("primitive_multiplication"), 1);
+}
+
+TEST(Render, HeatmapScale_IsTheOneAskedFor) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("boxwood-heat-{}.png", getpid());
+  const json document = run_for_json({"render", "generate:cube(4)", "--size", "16x16", "--integrator", "heatmap",
+                                      "--heatmap-scale", "77", "-o", file.string()});
+  EXPECT_EQ(document.at("heatmap_scale"), 77);
+  fs::remove(file);
 }
 
 TEST(Compare, Json_HasTheDocumentedFields) {

@@ -68,7 +68,7 @@ Outcome run_boxwood(const std::vector<std::string>& arguments, const RunOptions&
   if (child < 0) throw std::runtime_error("fork failed");
   if (options.interrupt_after_ms > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
-    kill(child, SIGINT);
+    kill(child, options.kill ? SIGKILL : SIGINT);
   }
   int status = 0;
   waitpid(child, &status, 0);

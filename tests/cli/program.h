@@ -16,6 +16,7 @@ struct Outcome {
 struct RunOptions {
   std::filesystem::path folder = ".";
   unsigned interrupt_after_ms = 0;
+  bool kill = false;  ///< sends SIGKILL instead of Ctrl-C
   std::string out_file = {};
 };
 Outcome run_boxwood(const std::vector<std::string>& arguments, const RunOptions& options = {});

@@ -68,6 +68,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(
     Fast, TreeOf,
     testing::Values("ploc", "ploc(radius=1, leaf=1)", "ploc(radius=31, morton=60, leaf=8, block=4)", "ploc(morton=3)",
+                    "ploc(block=4, run=4)", "ploc(block=4, run=4, leaf=8) > reinsert > optimal-collapse(8)",
                     "ploc > reinsert", "median > reinsert(batch=1, rounds=2)", "median(k=8) > reinsert", "spatial",
                     "spatial(alpha=0, budget=2, bins=8, leaf=1)", "spatial(unsplit=off, block=4, leaf=8) > reinsert",
                     "ploc > optimal-collapse(8)", "ploc(presplit=0.5)", "ploc(presplit=2, leaf=1) > reinsert",

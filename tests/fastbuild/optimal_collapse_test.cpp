@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -59,9 +60,9 @@ double least_as_node(const Tree& tree, std::uint32_t node, const Limits& limits)
   return std::min(least, half_area(at.bounds) + least_as_children(tree, {at.first, at.first + 1}, 0, limits));
 }
 
-std::string call(const Limits& limits) {
+std::string call(const Limits& limits, bool pack = true) {
   return "optimal-collapse(" + std::to_string(limits.k) + ", leaf=" + std::to_string(limits.leaf) +
-         ", block=" + std::to_string(limits.block) + ")";
+         ", block=" + std::to_string(limits.block) + (pack ? ")" : ", pack=off)");
 }
 
 TEST(OptimalCollapse, SmallTree_CostsWhatTryingEverythingFinds) {
@@ -69,7 +70,7 @@ TEST(OptimalCollapse, SmallTree_CostsWhatTryingEverythingFinds) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       const Triangles triangles("few", scattered(1 + seed, 0.4f, seed));
       const Tree binary = build_tree("median(leaf=1)", triangles);
-      const Tree wide = build_tree("median(leaf=1) > " + call(limits), triangles);
+      const Tree wide = build_tree("median(leaf=1) > " + call(limits, false), triangles);
       EXPECT_EQ(validate(wide, triangles.boxes(), limits.k), "");
       const double least = least_as_node(binary, 0, limits);
       EXPECT_NEAR(collapse_cost(wide, limits), least, 1e-5 * least) << call(limits) << ", " << triangles.size();
@@ -90,6 +91,25 @@ TEST(OptimalCollapse, AnyTree_NoDearerThanGreedyCollapse) {
       }
     }
   }
+}
+
+std::size_t count_of_leaves(const Tree& tree) {
+  return static_cast<std::size_t>(std::ranges::count_if(tree.nodes, &Tree::Node::is_leaf));
+}
+
+TEST(OptimalCollapse, Packing_NeverDearerAndFewerLeaves) {
+  std::size_t packed_leaves = 0, loose_leaves = 0;
+  for (const Triangles& triangles : troubling_triangles()) {
+    for (const Limits limits : {Limits{8, 4, 4}, Limits{4, 8, 8}, Limits{16, 4, 1}}) {
+      const Tree packed = build_tree("ploc > " + call(limits), triangles);
+      const Tree loose = build_tree("ploc > " + call(limits, false), triangles);
+      EXPECT_EQ(validate(packed, triangles.boxes(), limits.k), "") << triangles.name();
+      EXPECT_LE(collapse_cost(packed, limits), collapse_cost(loose, limits) * (1 + 1e-5)) << triangles.name();
+      packed_leaves += count_of_leaves(packed);
+      loose_leaves += count_of_leaves(loose);
+    }
+  }
+  EXPECT_LT(packed_leaves, loose_leaves);
 }
 
 TEST(OptimalCollapse, LeafLimit_HoldsUnlessLeavesWereLarger) {

@@ -64,6 +64,14 @@ TEST(Ploc, LeafSize_IsALimitAndLeavesPay) {
   }
 }
 
+TEST(Ploc, RunsOfTheCurve_GroupReferencesAtLittleCost) {
+  const Triangles triangles("surface", surface(100));
+  const Tree alone = build_tree("ploc(block=4)", triangles), runs = build_tree("ploc(block=4, run=4)", triangles);
+  EXPECT_NE(alone.references, runs.references);
+  EXPECT_LT(sah_cost(runs), 1.15 * sah_cost(alone));
+  for (const Tree::Node& node : runs.nodes) EXPECT_TRUE(!node.is_leaf() || node.count <= 4);
+}
+
 TEST(Ploc, BlocksOfFour_FillLeaves) {
   const Triangles triangles("surface", surface(50));
   const TreeStatistics single = statistics(build_tree("ploc(leaf=4)", triangles));

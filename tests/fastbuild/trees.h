@@ -155,7 +155,7 @@ inline Tree build_tree(const std::string& pipeline, const Triangles& triangles) 
     for (const Stage& stage : stages_here()) {
       if (stage.name != call.name) continue;
       std::any options = stage.defaults;
-      for (const std::string_view argument : call.arguments) set_option(stage.name, stage.options, options, argument);
+      set_options(stage.options, options, call);
       tree = stage.build ? stage.build(options, std::move(input)) : stage.refine(options, std::move(tree));
     }
     begin = end + 1;

@@ -36,7 +36,7 @@ std::string recipe_with(const Stage& stage, const std::string& call) {
     case StageKind::refinement:
       return "median > " + call + " > wide(256)";
     case StageKind::layout:
-      return "median > " + call;
+      return (stage.cells ? "octree > " : "median > ") + call;
     case StageKind::trace:
       return "median > binary > " + call;
     case StageKind::peer:
@@ -79,10 +79,26 @@ TEST(Recipe, EveryStageHasASummaryASourceAndHelpForEachOption) {
   }
 }
 
-TEST(Recipe, StageNamesAreUnique) {
+TEST(Recipe, StageNamesAreUniqueAtTheBeginningAndAfterIt) {
+  const auto begins = [](const Stage& stage) {
+    return stage.kind == StageKind::builder || stage.kind == StageKind::peer;
+  };
   for (const Stage& a : stages()) {
-    for (const Stage& b : stages()) EXPECT_TRUE(&a == &b || a.name != b.name) << a.name;
+    for (const Stage& b : stages()) EXPECT_TRUE(&a == &b || a.name != b.name || begins(a) != begins(b)) << a.name;
   }
+}
+
+TEST(Recipe, NameOfBuilderAndLayoutMeansTheBuilderFirst) {
+  const Recipe recipe = Recipe::parse("octree(primitives=5) > octree(mailbox=off)");
+  EXPECT_EQ(recipe.stages()[0].stage->kind, StageKind::builder);
+  EXPECT_EQ(recipe.stages()[1].stage->kind, StageKind::layout);
+  EXPECT_EQ(recipe.text(), "octree(primitives=5) > octree(mailbox=off)");
+}
+
+TEST(Recipe, LayoutOfCellsNeedsABuilderThatTellsThem) {
+  EXPECT_NE(usage_error("binned > bit-octree").find("must follow 'octree' directly"), std::string::npos);
+  EXPECT_NE(usage_error("octree > reinsert > octree").find("'reinsert' does not tell any"), std::string::npos);
+  EXPECT_EQ(usage_error("octree > bit-octree"), "");
 }
 
 TEST(Recipe, OptionsAtTheirDefaultAreLeftOut) {

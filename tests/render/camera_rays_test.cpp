@@ -44,6 +44,13 @@ TEST(CameraRays, FirstPixelIsTopLeft) {
   EXPECT_LT(camera.ray(63, 31, 0).direction.y, 0);
 }
 
+TEST(CameraRays, AMirroredCameraSwapsLeftAndRight) {
+  Camera mirrored = forward_camera();
+  mirrored.mirrored = true;
+  const Ray right = CameraRays(forward_camera(), 64, 32, 1, 1).ray(63, 5, 0);
+  expect_near(CameraRays(mirrored, 64, 32, 1, 1).ray(0, 5, 0).direction, right.direction);
+}
+
 TEST(CameraRays, FieldOfViewSpansTheShorterSide) {
   for (const auto& [width, height] : {std::pair{200u, 100u}, {100u, 200u}, {100u, 100u}}) {
     const CameraRays camera(forward_camera(90), width, height, 1, 1);

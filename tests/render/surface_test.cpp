@@ -59,7 +59,9 @@ TEST(SecondaryRays, StartOnTheSideTheyCameFrom) {
     EXPECT_LT(below.direction.y, 0);
     EXPECT_EQ(below.t_far, 3);
   }
-  const Ray shadow = shadow_ray(point, {0, -1, 0}, {0, 1010, 0});
+  LightSample light;
+  light.target = {0, 1010, 0};
+  const Ray shadow = shadow_ray(point, {0, -1, 0}, light);
   EXPECT_LT(shadow.t_far, 1);
   EXPECT_EQ(shadow.origin + shadow.direction, (Vec3{0, 1010, 0}));
 }

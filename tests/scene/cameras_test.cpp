@@ -82,7 +82,7 @@ using CameraFile = TemporaryFolder;
 
 TEST_F(CameraFile, ReadsBackExactlyWhatWasWritten) {
   const std::vector<Camera> cameras = {{"a \"quoted\" näme", {0.1f, -1e-7f, 3e11f}, {1.0f / 3, 0, 1}, {0, 1, 0}, 77.3f},
-                                       {"b", {0, 0, 0}, {0, 0, -1}, {1, 0, 0}, 60}};
+                                       {"b", {0, 0, 0}, {0, 0, -1}, {1, 0, 0}, 60, true, 320, 200}};
   write_cameras(path("c.cameras.json"), cameras);
   const std::vector<Camera> back = read_cameras(path("c.cameras.json"));
   ASSERT_EQ(back.size(), 2u);
@@ -92,6 +92,9 @@ TEST_F(CameraFile, ReadsBackExactlyWhatWasWritten) {
     EXPECT_EQ(back[i].direction, cameras[i].direction);
     EXPECT_EQ(back[i].up, cameras[i].up);
     EXPECT_EQ(back[i].fov, cameras[i].fov);
+    EXPECT_EQ(back[i].mirrored, cameras[i].mirrored);
+    EXPECT_EQ(back[i].width, cameras[i].width);
+    EXPECT_EQ(back[i].height, cameras[i].height);
   }
 }
 
@@ -108,6 +111,8 @@ TEST_F(CameraFile, WrongFieldsAreNamed) {
       {with("\"name\": \"a\", " + rest), "camera 1 lacks the field 'fov'"},
       {with("\"name\": \"a\", \"fov\": 180, " + rest), "camera 1 field 'fov' must be an angle"},
       {with("\"name\": \"a\", \"fov\": \"x\", " + rest), "camera 1 field 'fov' must hold numbers"},
+      {with("\"name\": \"a\", \"fov\": 60, \"mirrored\": 1, " + rest), "field 'mirrored' must be true or false"},
+      {with("\"name\": \"a\", \"fov\": 60, \"size\": [0, 9], " + rest), "field 'size' must be an array of width"},
       {with("\"name\": \"a\", \"fov\": 60, \"eyes\": 1, " + rest), "unknown field 'eyes'; did you mean 'eye'?"},
       {with(R"("name": "a", "fov": 60, "eye": [0, 0], "direction": [0, 0, 1], "up": [0, 1, 0])"),
        "camera 1 field 'eye' must be an array of three numbers"},

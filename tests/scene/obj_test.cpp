@@ -58,14 +58,26 @@ TEST_F(Obj, MaterialsComeFromTheMaterialFile) {
   ASSERT_EQ(scene.materials.size(), 4u);
   const Material &red = scene.materials[0], &lamp = scene.materials[1];
   EXPECT_EQ(red.name, "red wall");
-  EXPECT_EQ(red.diffuse, (Vec3{1, 0, 0}));
-  EXPECT_EQ(red.opacity, 0.5f);
+  EXPECT_EQ(red.diffuse, (Vec3{0.5f, 0, 0}));
+  EXPECT_EQ(red.transmission, (Vec3{0.5f, 0.5f, 0.5f}));
   EXPECT_EQ(red.refraction_index, 1.5f);
   EXPECT_EQ(red.shininess, 10);
   EXPECT_EQ(lamp.emission, (Vec3{5, 5, 5}));
   EXPECT_EQ(lamp.specular, (Vec3{0.1f, 0.2f, 0.3f}));
   ASSERT_EQ(scene.notes.messages.size(), 1u);
   EXPECT_NE(scene.notes.messages[0].find("m.obj:10: the material 'none' is not defined"), std::string::npos);
+}
+
+TEST_F(Obj, IlluminationModelsMakeMirrorsAndGlass) {
+  write("m.mtl",
+        "newmtl mirror\nillum 5\nKs .9 .9 .9\nnewmtl glass\nKs .3 .3 .3\nNi 2.5\nillum 7\nnewmtl gloss\nKs 1\n");
+  const Scene scene = load_text("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl glass\nf 1 2 3\n");
+  ASSERT_EQ(scene.materials.size(), 3u);
+  EXPECT_EQ(scene.materials[0].reflection, (Vec3{0.9f, 0.9f, 0.9f}));
+  EXPECT_EQ(scene.materials[0].specular, (Vec3{}));
+  EXPECT_EQ(scene.materials[1].transmission, (Vec3{1, 1, 1}));
+  EXPECT_EQ(scene.materials[1].refraction_index, 2.5f);
+  EXPECT_EQ(scene.materials[2].specular, (Vec3{1, 1, 1}));
 }
 
 TEST_F(Obj, AMissingMaterialFileIsNoted) {

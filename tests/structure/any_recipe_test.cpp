@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "boxwood/expected_use.h"
 #include "boxwood/structure.h"
 #include "recipe/stage.h"
 #include "support/differential.h"
@@ -57,17 +58,27 @@ std::vector<std::string> recipes_of(const std::string& builder) {
   return out;
 }
 
+/// What recipes that adapt to rays are told: these, whatever is wrong with them.
+ExpectedUse use_of(const std::vector<Ray>& rays) {
+  ExpectedUse use;
+  use.rays.push_back({"shadow", Query::any_hit, rays, {}});
+  for (const Ray& ray : rays) use.rays[0].ends.push_back(ray.t_far);
+  return use;
+}
+
 struct Case {
   test::NamedScene named;
   test::Expected expected;
+  ExpectedUse use;
 };
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> out;
     for (test::NamedScene& named : test::troubled_scenes()) {
-      test::Expected expected(named.scene, test::troubling_rays(named.scene, 120, 50 + out.size()));
-      out.push_back({std::move(named), std::move(expected)});
+      const std::vector<Ray> rays = test::troubling_rays(named.scene, 120, 50 + out.size());
+      test::Expected expected(named.scene, rays);
+      out.push_back({std::move(named), std::move(expected), use_of(rays)});
     }
     return out;
   }();
@@ -76,7 +87,8 @@ const std::vector<Case>& cases() {
 
 void expect_brute_force(const std::string& recipe) {
   for (const Case& c : cases()) {
-    test::expect_brute_force_answers(build(c.named.scene, recipe), c.expected, recipe + " over " + c.named.name);
+    test::expect_brute_force_answers(build(c.named.scene, recipe, {.use = &c.use}), c.expected,
+                                     recipe + " over " + c.named.name);
   }
 }
 
@@ -104,10 +116,11 @@ TEST_P(EveryBuilder, GivesThemHoweverTheTreeIsWalked) {
 TEST_P(EveryBuilder, GivesTheSameWalksForAnyNumberOfThreads) {
   const Scene scene = test::soup(3000, 0.1f, 31);
   const std::vector<Ray> rays = test::troubling_rays(scene, 200, 5);
+  const ExpectedUse use = use_of(rays);
   const auto walks = [&](unsigned threads) {
     std::vector<Hit> hits(rays.size());
     std::vector<RayCounters> counters(rays.size());
-    build(scene, GetParam() + " > wide(16)", {threads}).closest_hits_counted(rays, hits, counters);
+    build(scene, GetParam() + " > wide(16)", {threads, &use}).closest_hits_counted(rays, hits, counters);
     return counters;
   };
   EXPECT_EQ(walks(1), walks(4));

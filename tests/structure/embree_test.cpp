@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "boxwood/error.h"
 #include "boxwood/structure.h"
 #include "support/rays.h"
 #include "support/scenes.h"
@@ -56,6 +57,30 @@ TEST(Embree, IsRightWithinRounding) {
       EXPECT_LE(disagreements, rays.size() / 200) << recipe << " over " << named.name;
     }
   }
+}
+
+TEST(Embree, WithOurTriangleTest_GivesTheHitsOfOurLayouts) {
+  for (const test::NamedScene& named : scenes()) {
+    std::vector<Ray> rays = plain_rays(named.scene);
+    for (Ray& ray : rays) ray.t_near = std::max(ray.t_near, 0.0f);  // it knows no other
+    const Structure ours = build(named.scene, "median > binary"), embree = build(named.scene, "embree(geometry=user)");
+    std::vector<Hit> expected(rays.size()), hits(rays.size());
+    std::vector<RayCounters> counters(rays.size());
+    ours.closest_hits(rays, expected);
+    embree.closest_hits(rays, hits);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      different += hits[i] == expected[i] && embree.any_hit(rays[i]) == expected[i].valid() ? 0 : 1;
+    }
+    EXPECT_LE(different, rays.size() / 500) << named.name;  // its box test rounds in its own way
+    embree.closest_hits_counted(rays, hits, counters);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i].valid()) {
+        EXPECT_GT(counters[i].primitive_tests, 0u);
+      }
+    }
+  }
+  EXPECT_THROW(build(test::soup(5, 0.2f, 7), "embree(geometry=user, batch=stream)"), UsageError);
 }
 
 TEST(Embree, ReportsItsMemoryAndCountsNothing) {

@@ -8,6 +8,7 @@
 #include "build/morton/cluster_stack.h"
 #include "build/morton/morton_order.h"
 #include "build/morton/subtree_writer.h"
+#include "math/large_memory.h"
 #include "tree/tree.h"
 
 namespace boxwood {
@@ -21,15 +22,20 @@ struct ClusterBlock {
   std::vector<Cluster> roots;
   /// First the roots, then what is below them. Inner nodes count places from the block's first node, leaves from its
   /// first reference.
-  std::vector<Tree::Node> nodes;
+  std::span<const Tree::Node> nodes() const { return std::span(*all_nodes).subspan(first_node, node_count); }
   /// Primitives: first those of roots that are leaves, which may still join into larger leaves, then the others.
-  std::vector<std::uint32_t> references;
-  std::size_t loose_references = 0;  ///< how many belong to roots that are leaves
+  std::span<const std::uint32_t> references() const {
+    return std::span(*all_references).subspan(first_reference, reference_count);
+  }
+  std::size_t nodes_below_roots() const { return node_count - roots.size(); }
 
-  std::size_t nodes_below_roots() const { return nodes.size() - roots.size(); }
+  const LargeVector<Tree::Node>* all_nodes = nullptr;
+  const LargeVector<std::uint32_t>* all_references = nullptr;
+  std::size_t first_node = 0, node_count = 0, first_reference = 0, reference_count = 0;
+  std::size_t loose_references = 0;  ///< how many belong to roots that are leaves
 };
 
-/// Makes blocks, one after the other. One per thread.
+/// Makes blocks, one after the other, and holds what they point to. One per thread.
 class BlockBuilder {
  public:
   /// References in one block, at most: their joins (128 KiB) and boxes fit in the second-level cache.
@@ -42,6 +48,8 @@ class BlockBuilder {
 
  private:
   void push_references(std::size_t begin, std::size_t end);
+  void push_run(const Cluster& run);
+  bool extends(const Cluster& run, const Box& grown, const Box& next) const;
   void join(std::size_t begin, std::size_t end, std::size_t target);
   void write(ClusterBlock& block);
   void write_root(std::size_t root, ClusterId id);
@@ -49,12 +57,14 @@ class BlockBuilder {
 
   std::span<const Reference> references_;
   const MortonOrder& order_;
+  ClusteringOptions options_;
   ClusterStack stack_;
+  std::vector<std::uint32_t> runs_;  ///< references of the clusters that were there before clustering, by place
   std::vector<ClusterNode> joins_;
   SubtreeWriter writer_;
-  std::vector<Tree::Node> written_nodes_;
-  std::vector<std::uint32_t> written_references_;
-  std::size_t block_begin_ = 0;
+  LargeVector<Tree::Node> written_nodes_;  ///< of all blocks
+  LargeVector<std::uint32_t> written_references_;
+  std::size_t block_begin_ = 0, first_node_ = 0, first_reference_ = 0;
 };
 
 }  // namespace boxwood

@@ -10,10 +10,11 @@ struct ClusteringOptions {
   std::uint32_t radius = 8;      ///< how far along the curve a cluster looks for its partner, 1…max_radius
   std::uint32_t leaf_size = 4;   ///< most references in a leaf
   std::uint32_t leaf_block = 1;  ///< references tested at the price of one
+  std::uint32_t run = 1;  ///< most references next to each other on the curve that are one cluster from the start
 };
 
-/// What a cluster is: something that was there before clustering (by its place), an inner node (by its slot), or a node
-/// whose references are cheaper tested together.
+/// What a cluster is: something that was there before clustering (by the place of its first reference), an inner node
+/// (by its slot), or a node whose references are cheaper tested together.
 struct ClusterId {
   static constexpr std::uint32_t given_bit = 1u << 31, leaf_bit = 1u << 30;
   std::uint32_t bits = 0;

@@ -9,7 +9,7 @@
 
 #include "build/morton/cluster_block.h"
 #include "build/morton/cluster_stack.h"
-#include "math/huge_pages.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 namespace {
@@ -19,7 +19,6 @@ class Clustering {
   Clustering(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options)
       : order_(order),
         count_(references.size()),
-        joins_(count_),
         builders_([=, &order] { return BlockBuilder(references, order, options); }),
         stacks_([=] { return ClusterStack(2 * kept_clusters, 2 * kept_clusters, options); }) {}
 
@@ -27,6 +26,7 @@ class Clustering {
     cut(0, count_);
     unite_small_blocks();
     blocks_.resize(begins_.size());
+    joins_ = RawArray<ClusterNode>(blocks_.size() * kept_clusters);
     const std::vector<Cluster> top = join(0, begins_.size());
     write(top.front());
     return std::move(tree_);
@@ -81,7 +81,7 @@ class Clustering {
     blocks_[block] = builders_.local().build(begin_of(block), begin_of(block + 1), target);
     std::vector<Cluster> clusters = blocks_[block].roots;
     for (std::size_t i = 0; i < clusters.size(); ++i) {
-      const auto place = static_cast<std::uint32_t>(begin_of(block) + i);
+      const auto place = static_cast<std::uint32_t>(block * kept_clusters + i);
       clusters[i].id = ClusterId::given(place);
       clusters[i].free_slot = place;
     }
@@ -91,20 +91,16 @@ class Clustering {
   struct RootPlace {
     std::size_t block, root;
   };
-  RootPlace root_place(ClusterId id) const {
-    const auto after = std::upper_bound(begins_.begin(), begins_.end(), id.number());
-    const auto block = static_cast<std::size_t>(after - begins_.begin()) - 1;
-    return {block, id.number() - begins_[block]};
-  }
+  RootPlace root_place(ClusterId id) const { return {id.number() / kept_clusters, id.number() % kept_clusters}; }
 
   /// Appends the primitives of a leaf that is made of roots of blocks. Recursion is no deeper than a leaf has
   /// references.
   void collect(ClusterId id, std::vector<std::uint32_t>& references) const {
     if (id.is_given()) {
       const auto [b, root] = root_place(id);
-      const Tree::Node& leaf = blocks_[b].nodes[root];
-      const auto first = blocks_[b].references.begin() + leaf.first;
-      references.insert(references.end(), first, first + leaf.count);
+      const Tree::Node& leaf = blocks_[b].nodes()[root];
+      const auto primitives = blocks_[b].references().subspan(leaf.first, leaf.count);
+      references.insert(references.end(), primitives.begin(), primitives.end());
     } else {
       collect(joins_[id.number()].left, references);
       collect(joins_[id.number()].right, references);
@@ -113,7 +109,7 @@ class Clustering {
 
   /// The nodes above the blocks, the leaves that are made of roots of blocks, then block by block.
   void write(const Cluster& root) {
-    std::vector<Tree::Node> top(1);
+    LargeVector<Tree::Node> top(1);
     std::vector<std::uint32_t> loose;
     struct Subtree {
       std::size_t node;
@@ -121,7 +117,7 @@ class Clustering {
     };
     std::vector<Subtree> subtrees;
     top.front().bounds = root.bounds;
-    SubtreeWriter().write(joins_.data(), root.id, 0, top, [&](Tree::Node& node, ClusterId id) {
+    SubtreeWriter().write(joins_.data(), root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
       if (id.is_given()) {
         const RootPlace place = root_place(id);
         if (blocks_[place.block].roots[place.root].id.is_inner()) {
@@ -138,12 +134,10 @@ class Clustering {
     std::vector<std::size_t> node_places{top.size()}, reference_places{loose.size()};
     for (const ClusterBlock& block : blocks_) {
       node_places.push_back(node_places.back() + block.nodes_below_roots());
-      reference_places.push_back(reference_places.back() + block.references.size() - block.loose_references);
+      reference_places.push_back(reference_places.back() + block.reference_count - block.loose_references);
     }
-    tree_.nodes.reserve(node_places.back());
-    tree_.references.reserve(count_);
-    prefer_huge_pages(tree_.nodes.data(), node_places.back() * sizeof(Tree::Node));
-    prefer_huge_pages(tree_.references.data(), count_ * sizeof(std::uint32_t));
+    reserve_large(tree_.nodes, node_places.back());
+    reserve_large(tree_.references, count_);
     tree_.nodes.resize(node_places.back());
     tree_.references.resize(count_);
     std::copy(top.begin(), top.end(), tree_.nodes.begin());
@@ -151,27 +145,30 @@ class Clustering {
     tbb::parallel_for(std::size_t{0}, blocks_.size(),
                       [&](std::size_t b) { place_block(blocks_[b], node_places[b], reference_places[b]); });
     for (const Subtree& subtree : subtrees) {
-      tree_.nodes[subtree.node] = blocks_[subtree.place.block].nodes[subtree.place.root];
+      const ClusterBlock& block = blocks_[subtree.place.block];
+      tree_.nodes[subtree.node] = block.nodes()[subtree.place.root];
+      tree_.nodes[subtree.node].first +=
+          static_cast<std::uint32_t>(node_places[subtree.place.block] - block.roots.size());
     }
   }
 
-  void place_block(ClusterBlock& block, std::size_t node_place, std::size_t reference_place) {
-    const auto roots = static_cast<std::ptrdiff_t>(block.roots.size());
-    const auto loose = static_cast<std::ptrdiff_t>(block.loose_references);
-    for (Tree::Node& node : block.nodes) {
-      node.first += static_cast<std::uint32_t>(node.is_leaf() ? reference_place - block.loose_references
-                                                              : node_place - block.roots.size());
-    }
-    std::copy(block.nodes.begin() + roots, block.nodes.end(),
-              tree_.nodes.begin() + static_cast<std::ptrdiff_t>(node_place));
-    std::copy(block.references.begin() + loose, block.references.end(),
-              tree_.references.begin() + static_cast<std::ptrdiff_t>(reference_place));
+  void place_block(const ClusterBlock& block, std::size_t node_place, std::size_t reference_place) {
+    const auto node_shift = static_cast<std::uint32_t>(node_place - block.roots.size());
+    const auto reference_shift = static_cast<std::uint32_t>(reference_place - block.loose_references);
+    const auto below = block.nodes().subspan(block.roots.size());
+    std::transform(below.begin(), below.end(), tree_.nodes.begin() + static_cast<std::ptrdiff_t>(node_place),
+                   [=](Tree::Node node) {
+                     node.first += node.is_leaf() ? reference_shift : node_shift;
+                     return node;
+                   });
+    std::ranges::copy(block.references().subspan(block.loose_references),
+                      tree_.references.begin() + static_cast<std::ptrdiff_t>(reference_place));
   }
 
   const MortonOrder& order_;
   std::size_t count_;
   Tree tree_;
-  RawArray<ClusterNode> joins_;  ///< above the blocks; of a block's places only those of its roots are used
+  RawArray<ClusterNode> joins_;  ///< above the blocks, whose roots own kept_clusters places each
   std::vector<std::size_t> begins_;
   std::vector<ClusterBlock> blocks_;
   tbb::enumerable_thread_specific<BlockBuilder> builders_;

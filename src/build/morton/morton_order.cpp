@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "math/huge_pages.h"
+#include "build/morton/radix_sort.h"
 
 namespace boxwood {
 namespace {
@@ -58,9 +58,6 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
 
   MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits};
   RawArray<std::uint64_t> scratch(references.size());
-  for (RawArray<std::uint64_t>* array : {&order.keys, &scratch}) {
-    prefer_huge_pages(array->data(), references.size() * sizeof(std::uint64_t));
-  }
   tbb::parallel_for(Range(0, references.size(), grain), [&](const Range& range) {
     const auto cell = [&](float offset) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(offset * scale, cells - 1)));

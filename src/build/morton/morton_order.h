@@ -3,7 +3,7 @@
 #include <span>
 
 #include "build/build_input.h"
-#include "build/morton/radix_sort.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 

@@ -1,5 +1,7 @@
 // Bottom-up building in the order of the Morton curve: quick, and better than splitting along the curve. Meister and
 // Bittner 2018, "Parallel Locally-Ordered Clustering"; Benthin et al. 2024, "H-PLOC".
+#include <algorithm>
+
 #include "boxwood/error.h"
 #include "build/morton/clustering.h"
 #include "build/morton/morton_order.h"
@@ -14,6 +16,7 @@ struct PlocOptions {
   std::uint32_t morton = 30;
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
+  std::uint32_t run = 1;
   float presplit = 0;
 };
 
@@ -25,7 +28,8 @@ Tree build_ploc(const PlocOptions& options, BuildInput input) {
     throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
-  Tree tree = cluster(input.references, order, {options.radius, options.leaf, options.block});
+  Tree tree = cluster(input.references, order,
+                      {options.radius, options.leaf, options.block, std::min(options.run, options.leaf)});
   tree.clipped_leaves = cut;
   return tree;
 }
@@ -39,6 +43,8 @@ Stage ploc_stage() {
       .integer("morton", &PlocOptions::morton, 3, 60, "bits of a Morton code, at most; fewer when a scene is large")
       .integer("leaf", &PlocOptions::leaf, 1, 64, "most references in a leaf, where that is cheaper")
       .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
+      .integer("run", &PlocOptions::run, 1, 16,
+               "references next to each other on the curve that become a leaf before clustering, where that is cheaper")
       .real("presplit", &PlocOptions::presplit, 0, 4,
             "references that cutting long triangles may add, as a part of all");
   return builder_stage<PlocOptions>("ploc", "joins neighbours along the Morton curve, bottom-up",

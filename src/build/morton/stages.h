@@ -4,5 +4,6 @@
 namespace boxwood {
 
 Stage ploc_stage();
+Stage hlbvh_stage();
 
 }  // namespace boxwood

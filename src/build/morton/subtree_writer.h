@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "build/morton/cluster_tree.h"
+#include "math/large_memory.h"
 #include "tree/child_axis.h"
 #include "tree/tree.h"
 
@@ -13,25 +14,28 @@ namespace boxwood {
 /// Writes joined clusters out as tree nodes, depth first with siblings side by side.
 class SubtreeWriter {
  public:
-  /// Sets out[place], whose bounds are there already, and appends all that is below `id` to `out`.
-  /// finish(out[node], id) is called for what is not an inner node, its bounds set. An explicit stack: trees may be
-  /// deep.
+  /// Sets out[begin + place], whose bounds are there already, and appends all that is below `id` to `out`; places are
+  /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set. An explicit stack:
+  /// trees may be deep.
   template <class Finish>
-  void write(const ClusterNode* nodes, ClusterId id, std::size_t place, std::vector<Tree::Node>& out, Finish&& finish) {
-    visit(id, static_cast<std::uint32_t>(place), out, finish);
+  void write(const ClusterNode* nodes, ClusterId id, std::size_t begin, std::size_t place, LargeVector<Tree::Node>& out,
+             Finish&& finish) {
+    visit(id, static_cast<std::uint32_t>(place), out.data() + begin, finish);
     while (!pending_.empty()) {
       const auto [slot, node] = pending_.back();
       pending_.pop_back();
       const ClusterNode& from = nodes[slot];
       const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
-      const auto first = static_cast<std::uint32_t>(out.size());
-      out[node].first = first;
-      out[node].count = 2;
-      out[node].axis = axis.axis & 3;
-      out.emplace_back().bounds = axis.descending ? from.right_bounds : from.left_bounds;
-      out.emplace_back().bounds = axis.descending ? from.left_bounds : from.right_bounds;
-      visit(axis.descending ? from.left : from.right, first + 1, out, finish);
-      visit(axis.descending ? from.right : from.left, first, out, finish);
+      const auto first = static_cast<std::uint32_t>(out.size() - begin);
+      out.resize(out.size() + 2);
+      Tree::Node* block = out.data() + begin;
+      block[node].first = first;
+      block[node].count = 2;
+      block[node].axis = axis.axis & 3;
+      block[first].bounds = axis.descending ? from.right_bounds : from.left_bounds;
+      block[first + 1].bounds = axis.descending ? from.left_bounds : from.right_bounds;
+      visit(axis.descending ? from.left : from.right, first + 1, block, finish);
+      visit(axis.descending ? from.right : from.left, first, block, finish);
     }
   }
 
@@ -41,11 +45,11 @@ class SubtreeWriter {
   };
 
   template <class Finish>
-  void visit(ClusterId id, std::uint32_t node, std::vector<Tree::Node>& out, Finish& finish) {
+  void visit(ClusterId id, std::uint32_t node, Tree::Node* block, Finish& finish) {
     if (id.is_inner()) {
       pending_.push_back({id.number(), node});
     } else {
-      finish(out[node], id);
+      finish(block[node], id);
     }
   }
 

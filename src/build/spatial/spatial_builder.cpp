@@ -12,6 +12,7 @@
 #include "build/spatial/fragments.h"
 #include "build/spatial/split.h"
 #include "build/spatial/stages.h"
+#include "cost/registry.h"
 #include "tree/child_axis.h"
 
 namespace boxwood {
@@ -24,6 +25,7 @@ struct SpatialOptions {
   bool unsplit = true;
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
+  CostChoice cost;
 };
 
 /// References that one task builds over on its own.
@@ -50,6 +52,7 @@ class SpatialBuilder {
       : options_(options),
         price_{static_cast<std::uint32_t>(std::bit_width(options.block - 1))},
         geometry_(input.geometry),
+        use_(input.use),
         array_(std::move(input.references)),
         dividers_([this] { return FragmentDivider(array_, geometry_, options_.unsplit); }) {}
 
@@ -61,11 +64,12 @@ class SpatialBuilder {
       all.bounds.grow(box);
       all.centers.grow(box.lower + box.upper);
     }
+    if (!options_.cost.is_surface_area()) model_ = options_.cost.make({all.bounds.box(), use_});
     root_area_ = half_area(all.bounds);
     const double room = geometry_ ? static_cast<double>(array_.size()) * double{options_.budget} : 0;
     all.limit = all.end + static_cast<std::uint32_t>(room);
     array_.resize(all.limit);
-    const std::unique_ptr<Branch> root = grow(all, 0);
+    const std::unique_ptr<Branch> root = grow(all, 0, nullptr);
     Tree tree;
     tree.clipped_leaves = geometry_ != nullptr;
     tree.nodes.emplace_back();
@@ -74,8 +78,15 @@ class SpatialBuilder {
   }
 
  private:
-  Split find_split(const Fragments& node, FragmentDivider& divider, bool& spatial) const {
-    const FragmentSet set{divider.references(node), node.bounds, node.centers};
+  using Memory = std::shared_ptr<const CostModel::Memory>;
+
+  Memory enter(const Fragments& node, const Memory& parent) const {
+    return model_ ? model_->enter(node.bounds.box(), parent.get()) : nullptr;
+  }
+
+  Split find_split(const Fragments& node, FragmentDivider& divider, const Memory& memory, bool& spatial) const {
+    FragmentSet set{divider.references(node), node.bounds, node.centers};
+    if (model_ && !model_->is_surface_area(memory.get())) set.model = model_.get(), set.memory = memory.get();
     const std::uint32_t bins = std::min(options_.bins, 4 + node.size() / 2);
     Split best = find_object_split(set, bins, price_);
     spatial = false;
@@ -97,12 +108,12 @@ class SpatialBuilder {
   }
 
   /// False: the node is to be a leaf.
-  bool divide(const Fragments& node, std::uint32_t level, FragmentPair& parts) {
+  bool divide(const Fragments& node, std::uint32_t level, const Memory& memory, FragmentPair& parts) {
     const std::uint32_t count = node.size();
     if (count == 1) return false;
     FragmentDivider& divider = dividers_.local();
     bool spatial = false;
-    const Split split = level < last_free_level ? find_split(node, divider, spatial) : Split{};
+    const Split split = level < last_free_level ? find_split(node, divider, memory, spatial) : Split{};
     const float area = half_area(node.bounds);
     if (count <= options_.leaf && area * price_(count) <= area + split.cost) return false;
     if (!split.found()) {
@@ -119,17 +130,20 @@ class SpatialBuilder {
   }
 
   /// Builds over many references with a task for each side.
-  std::unique_ptr<Branch> grow(const Fragments& node, std::uint32_t level) {
+  std::unique_ptr<Branch> grow(const Fragments& node, std::uint32_t level, const Memory& parent) {
     auto branch = std::make_unique<Branch>();
     branch->bounds = node.bounds.box();
     FragmentPair parts;
     if (node.size() <= serial_size) {
       branch->nodes.emplace_back();
-      write(node, level, 0, *branch);
-    } else if (divide(node, level, parts)) {
+      write(node, level, parent, 0, *branch);
+      return branch;
+    }
+    const Memory memory = enter(node, parent);
+    if (divide(node, level, memory, parts)) {
       order(parts, branch->axis);
-      tbb::parallel_invoke([&] { branch->children[0] = grow(parts.left, level + 1); },
-                           [&] { branch->children[1] = grow(parts.right, level + 1); });
+      tbb::parallel_invoke([&] { branch->children[0] = grow(parts.left, level + 1, memory); },
+                           [&] { branch->children[1] = grow(parts.right, level + 1, memory); });
     }
     return branch;
   }
@@ -141,11 +155,12 @@ class SpatialBuilder {
   }
 
   /// Sets nodes[place] of a branch and appends all that is below it, depth first with siblings side by side.
-  void write(const Fragments& node, std::uint32_t level, std::size_t place, Branch& branch) {
+  void write(const Fragments& node, std::uint32_t level, const Memory& parent, std::size_t place, Branch& branch) {
+    const Memory memory = enter(node, parent);
     Tree::Node out;
     out.bounds = node.bounds.box();
     FragmentPair parts;
-    if (!divide(node, level, parts)) {
+    if (!divide(node, level, memory, parts)) {
       out.leaf = 1;
       out.first = static_cast<std::uint32_t>(branch.references.size());
       out.count = append_primitives(node, branch.references) & Tree::max_count;
@@ -160,8 +175,8 @@ class SpatialBuilder {
     out.axis = axis.axis & 3;
     branch.nodes[place] = out;
     branch.nodes.resize(first + 2);
-    write(parts.left, level + 1, first, branch);
-    write(parts.right, level + 1, first + 1, branch);
+    write(parts.left, level + 1, memory, first, branch);
+    write(parts.right, level + 1, memory, first + 1, branch);
   }
 
   /// Two parts of one primitive in the same leaf are one. Returns how many were appended.
@@ -200,8 +215,10 @@ class SpatialBuilder {
   }
 
   SpatialOptions options_;
+  std::unique_ptr<CostModel> model_;  // null: surface area
   LeafPrice price_;
   const Geometry* geometry_;
+  const KnownUse* use_;
   std::vector<Reference> array_;
   float root_area_ = 0;
   tbb::enumerable_thread_specific<FragmentDivider> dividers_;
@@ -213,6 +230,7 @@ Tree build_spatial(const SpatialOptions& options, BuildInput input) {
   if (most >= 2147483648.0) {
     throw Error("'spatial' takes at most 2^31 references, cut ones included; lower its budget or split the scene");
   }
+  mark_seen(input);
   return SpatialBuilder(options, std::move(input)).run();
 }
 
@@ -228,9 +246,14 @@ Stage spatial_stage() {
       .flag("unsplit", &SpatialOptions::unsplit, "leave a primitive whole on one side where that is cheaper")
       .integer("leaf", &SpatialOptions::leaf, 1, 64, "most references in a leaf")
       .integer("block", &SpatialOptions::block, 1, 16, "references tested at the price of one; a power of two");
-  return builder_stage<SpatialOptions>("spatial", "splits by surface area cost, of references or of space",
-                                       "Stich et al. 2009 (SBVH)", options, build_spatial,
-                                       [](const SpatialOptions&) { return 2u; });
+  add_cost_choice(options, "cost", &SpatialOptions::cost, "how likely a ray is taken to enter a side of a split");
+  Stage stage =
+      builder_stage<SpatialOptions>("spatial", "splits by cost, of references or of space", "Stich et al. 2009 (SBVH)",
+                                    options, build_spatial, [](const SpatialOptions&) { return 2u; });
+  stage.needs_use = [](const std::any& chosen) {
+    return std::any_cast<const SpatialOptions&>(chosen).cost.needs_use();
+  };
+  return stage;
 }
 
 }  // namespace boxwood

@@ -12,6 +12,7 @@ namespace {
 struct Bin {
   Box4 box;
   std::uint32_t entries = 0, exits = 0;
+  std::uint32_t seen_entries = 0, seen_exits = 0;  // counted for models only
 };
 
 using AxisBins = std::array<Bin, max_spatial_bins>;
@@ -53,6 +54,89 @@ void sweep(const AxisBins& bins, std::int32_t count, int axis, LeafPrice price, 
   for (std::int32_t b = best_border; b < count; ++b) best.right.grow(bins[static_cast<std::size_t>(b)].box);
 }
 
+/// Both sides of every border of one axis.
+struct Sides {
+  std::array<Side, max_spatial_bins> left, right;
+  std::array<float, max_spatial_bins> left_share, right_share;
+
+  Sides(const AxisBins& bins, std::size_t count) {
+    Box4 box;
+    Side side;
+    for (std::size_t b = count - 1; b > 0; --b) {
+      box.grow(bins[b].box);
+      side.box = box.box();
+      side.count += bins[b].exits;
+      side.seen += bins[b].seen_exits;
+      right[b] = side;
+    }
+    box = {};
+    side = {};
+    for (std::size_t b = 1; b < count; ++b) {
+      box.grow(bins[b - 1].box);
+      side.box = box.box();
+      side.count += bins[b - 1].entries;
+      side.seen += bins[b - 1].seen_entries;
+      left[b] = side;
+    }
+  }
+};
+
+Box4 box4(const Box& box) {
+  Box4 out;
+  out.lower = Float4{box.lower.x, box.lower.y, box.lower.z, 0};
+  out.upper = Float4{box.upper.x, box.upper.y, box.upper.z, 0};
+  return out;
+}
+
+/// Like sweep(), by the set's model. Prices are times the node's area, as surface area's are.
+void sweep_by_model(const FragmentSet& set, const AxisBins& bins, std::int32_t count, int axis, LeafPrice price,
+                    Split& best) {
+  const auto size = static_cast<std::size_t>(count);
+  const float area = half_area(set.bounds);
+  if (size < 2 || !(area > 0)) return;
+  Sides sides(bins, size);
+  CostModel::Node node{set.bounds.box(), set.size(), 0, set.memory};
+  for (const Reference& reference : set.references) node.seen += reference.seen != 0 ? 1 : 0;
+  const auto inner = [&](auto& all) { return std::span(all).subspan(1, size - 1); };
+  set.model->pair_probabilities(node, inner(sides.left), inner(sides.right), inner(sides.left_share),
+                                inner(sides.right_share));
+  for (std::size_t b = 1; b < size; ++b) {
+    const Side &left = sides.left[b], &right = sides.right[b];
+    if (left.count == 0 || right.count == 0) continue;
+    const float cost = area * (sides.left_share[b] * price(left.count) + sides.right_share[b] * price(right.count));
+    if (!(cost < best.cost)) continue;
+    best.cost = cost;
+    best.axis = axis;
+    best.border = static_cast<std::int32_t>(b);
+    best.left = box4(left.box), best.right = box4(right.box);
+    best.left_count = left.count, best.right_count = right.count;
+    best.left_seen = left.seen, best.right_seen = right.seen;
+  }
+}
+
+/// The best border of the axes by the set's model, or by surface area where there is none or where the model's choice
+/// does not stand up to surface area's.
+template <class BinsOf>
+void find_best(const FragmentSet& set, int first_axis, int last_axis, std::uint32_t count, const BinsOf& bins_of,
+               LeafPrice price, Split& best) {
+  const auto borders = static_cast<std::int32_t>(count);
+  const Split none = best;
+  if (set.model) {
+    for (int axis = first_axis; axis <= last_axis; ++axis) {
+      sweep_by_model(set, bins_of(axis), borders, axis, price, best);
+    }
+    if (!best.found() || !set.model->has_rival()) return;
+  }
+  Split by_area = none;
+  for (int axis = first_axis; axis <= last_axis; ++axis) sweep(bins_of(axis), borders, axis, price, by_area);
+  if (set.model && by_area.found()) {
+    const Side own[2] = {{{}, best.left_count, best.left_seen}, {{}, best.right_count, best.right_seen}};
+    const Side rival[2] = {{{}, by_area.left_count, 0}, {{}, by_area.right_count, 0}};
+    if (set.model->accepts(own, rival)) return;
+  }
+  best = by_area;
+}
+
 }  // namespace
 
 Slabs::Slabs(const Box4& box, std::uint32_t count) : origin_(box.lower) {
@@ -83,13 +167,14 @@ Split find_object_split(const FragmentSet& set, std::uint32_t bins, LeafPrice pr
       Bin& at = axes[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin[axis])];
       at.box.grow(box);
       ++at.entries;
+      if (set.model && reference.seen != 0) ++at.seen_entries;
     }
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    AxisBins& row = axes[static_cast<std::size_t>(axis)];
-    for (std::uint32_t b = 0; b < bins; ++b) row[b].exits = row[b].entries;
-    sweep(row, static_cast<std::int32_t>(bins), axis, price, best);
+  for (AxisBins& row : axes) {
+    for (std::uint32_t b = 0; b < bins; ++b) row[b].exits = row[b].entries, row[b].seen_exits = row[b].seen_entries;
   }
+  const auto bins_of = [&](int axis) -> const AxisBins& { return axes[static_cast<std::size_t>(axis)]; };
+  find_best(set, 0, 2, bins, bins_of, price, best);
   return best;
 }
 
@@ -105,6 +190,10 @@ Split find_spatial_split(const FragmentSet& set, const Geometry& geometry, std::
     const std::int32_t first = best.slabs(box.lower[axis], axis), last = best.slabs(box.upper[axis], axis);
     ++row[static_cast<std::size_t>(first)].entries;
     ++row[static_cast<std::size_t>(last)].exits;
+    if (set.model && reference.seen != 0) {
+      ++row[static_cast<std::size_t>(first)].seen_entries;
+      ++row[static_cast<std::size_t>(last)].seen_exits;
+    }
     if (first == last) {
       row[static_cast<std::size_t>(first)].box.grow(box);
     } else {
@@ -112,7 +201,8 @@ Split find_spatial_split(const FragmentSet& set, const Geometry& geometry, std::
                      [&](std::int32_t slab, const Box4& part) { row[static_cast<std::size_t>(slab)].box.grow(part); });
     }
   }
-  sweep(row, static_cast<std::int32_t>(bins), axis, price, best);
+  find_best(
+      set, axis, axis, bins, [&](int) -> const AxisBins& { return row; }, price, best);
   return best;
 }
 

@@ -5,6 +5,7 @@
 
 #include "build/build_input.h"
 #include "build/float4.h"
+#include "cost/cost_model.h"
 
 namespace boxwood {
 
@@ -14,6 +15,8 @@ inline constexpr std::uint32_t max_spatial_bins = 64;
 struct FragmentSet {
   std::span<Reference> references;
   Box4 bounds, centers;
+  const CostModel* model = nullptr;           ///< prices sides; null: by surface area, quicker
+  const CostModel::Memory* memory = nullptr;  ///< what the model remembers of this set's node
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references.size()); }
 };
@@ -50,6 +53,7 @@ struct Split {
   std::int32_t border = 0;
   Box4 left, right;
   std::uint32_t left_count = 0, right_count = 0;
+  std::uint32_t left_seen = 0, right_seen = 0;  ///< of those, seen ones; counted for models only
   Slabs slabs;
 
   bool found() const { return cost < std::numeric_limits<float>::infinity(); }

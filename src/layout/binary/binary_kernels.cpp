@@ -13,6 +13,8 @@ namespace HWY_NAMESPACE {
 
 class BinaryTester {
  public:
+  using Slot = std::uint32_t;
+
   BinaryTester(const BinaryNodes& nodes, const PreparedRay& ray) : nodes_(nodes.nodes.data()), ray_(ray) {}
 
   const Box& root_box() const { return nodes_[0].bounds; }

@@ -3,49 +3,16 @@
 #ifdef BOXWOOD_EMBREE
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "boxwood/error.h"
+#include "layout/embree/embree_ray.h"
 #include "layout/embree/embree_scene.h"
+#include "layout/embree/embree_user.h"
 #include "layout/layout.h"
 #include "layout/stages.h"
 
 namespace boxwood {
 namespace {
-
-/// Ray's limits, as the kernels of our own see them.
-bool within_limits(const Ray& ray) {
-  const auto size = [](const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); };
-  return is_finite(ray.origin) && is_finite(ray.direction) && size(ray.origin) <= largest_coordinate &&
-         size(ray.direction) <= largest_coordinate && size(ray.direction) >= 1 / largest_coordinate &&
-         ray.t_near <= ray.t_far;
-}
-
-/// Embree wants t_near >= 0 and takes a negative t_far for a hit; invalid rays become ones that cannot hit.
-RTCRay to_embree(const Ray& ray) {
-  const bool valid = within_limits(ray) && ray.t_far >= 0;
-  RTCRay out{};
-  out.org_x = valid ? ray.origin.x : 0, out.org_y = valid ? ray.origin.y : 0, out.org_z = valid ? ray.origin.z : 0;
-  out.dir_x = valid ? ray.direction.x : 1, out.dir_y = valid ? ray.direction.y : 0;
-  out.dir_z = valid ? ray.direction.z : 0;
-  out.tnear = valid ? std::max(ray.t_near, 0.0f) : 1;
-  out.tfar = valid ? ray.t_far : 0;
-  out.mask = 0xffffffffu;
-  return out;
-}
-
-RTCRayHit to_query(const Ray& ray) {
-  RTCRayHit query{};
-  query.ray = to_embree(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
-RTCIntersectContext incoherent() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  return context;
-}
 
 class EmbreeLayout final : public Layout {
  public:
@@ -198,10 +165,17 @@ Stage embree_stage() {
                              .flag("robust", &EmbreeOptions::robust, "avoid optimizations that cost precision")
                              .flag("compact", &EmbreeOptions::compact, "save memory at some speed")
                              .choice("batch", &EmbreeOptions::batch, {"single", "packet16", "stream"},
-                                     "how a batch of rays is handed over"),
+                                     "how a batch of rays is handed over")
+                             .choice("geometry", &EmbreeOptions::geometry, {"triangles", "user"},
+                                     "Embree's triangle test, or ours by callbacks, so that only the topology differs"),
                          static_cast<std::uint32_t (*)(const EmbreeOptions&)>(nullptr));
   stage.trace_peer = [](const std::any& options, const Scene& scene) -> std::shared_ptr<const Layout> {
-    return std::make_shared<EmbreeLayout>(scene, std::any_cast<const EmbreeOptions&>(options));
+    const auto& embree = std::any_cast<const EmbreeOptions&>(options);
+    if (embree.geometry == EmbreeGeometry::triangles) return std::make_shared<EmbreeLayout>(scene, embree);
+    if (embree.batch != EmbreeBatch::single) {
+      throw UsageError("'embree(geometry=user)' takes single rays only; leave out 'batch'");
+    }
+    return make_embree_user_layout(scene, embree);
   };
   return stage;
 }

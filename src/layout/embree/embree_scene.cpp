@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "boxwood/error.h"
 
@@ -91,7 +92,38 @@ RTCScene EmbreeScene::new_scene(const EmbreeOptions& options) {
   return scene;
 }
 
+RTCScene EmbreeScene::commit_user_mesh(const Mesh& mesh, const EmbreeOptions& options) {
+  user_meshes_.push_back(std::make_unique<EmbreeUserMesh>());
+  EmbreeUserMesh& user = *user_meshes_.back();
+  for (const std::uint32_t i : usable_numbers(mesh)) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    user.triangles.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c], i});
+    for (const Vec3& corner : {mesh.positions[a], mesh.positions[b], mesh.positions[c]}) {
+      user.reach = std::max({user.reach, std::fabs(corner.x), std::fabs(corner.y), std::fabs(corner.z)});
+    }
+  }
+  bytes_ += static_cast<std::ptrdiff_t>(user.triangles.size() * sizeof(LeafTriangle));
+  const RTCScene scene = new_scene(options);
+  if (!user.triangles.empty()) {
+    const EmbreeUserCallbacks callbacks = embree_user_callbacks();
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(user.triangles.size()));
+    rtcSetGeometryUserData(geometry, &user);
+    rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
+    rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
+    rtcSetGeometryBuildQuality(geometry, quality_of(options.quality));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, 0);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene);
+  check();
+  return scene;
+}
+
 RTCScene EmbreeScene::commit_mesh(const Mesh& mesh, const EmbreeOptions& options, std::vector<std::uint32_t>& numbers) {
+  if (options.geometry == EmbreeGeometry::user) return commit_user_mesh(mesh, options);
   std::vector<std::uint32_t> usable = usable_numbers(mesh);
   const RTCScene scene = new_scene(options);
   if (!usable.empty()) {

@@ -8,17 +8,20 @@
 #include <vector>
 
 #include "boxwood/scene.h"
+#include "layout/embree/embree_user.h"
 
 namespace boxwood {
 
 enum class EmbreeQuality : std::uint8_t { low, medium, high };
 enum class EmbreeBatch : std::uint8_t { single, packet16, stream };
+enum class EmbreeGeometry : std::uint8_t { triangles, user };
 
 struct EmbreeOptions {
   EmbreeQuality quality = EmbreeQuality::medium;
   bool robust = false;
   bool compact = false;
   EmbreeBatch batch = EmbreeBatch::single;  ///< how batches are handed over
+  EmbreeGeometry geometry = EmbreeGeometry::triangles;
 };
 
 /// A device with one committed scene: the triangles of a single-level scene themselves, or one Embree instance per
@@ -42,14 +45,16 @@ class EmbreeScene {
  private:
   RTCScene new_scene(const EmbreeOptions& options);
   RTCScene commit_mesh(const Mesh& mesh, const EmbreeOptions& options, std::vector<std::uint32_t>& numbers);
+  RTCScene commit_user_mesh(const Mesh& mesh, const EmbreeOptions& options);
   void check() const;
   void release();
 
   RTCDevice device_ = nullptr;
   RTCScene top_ = nullptr;
   std::vector<RTCScene> bottoms_;
-  std::vector<std::uint32_t> mesh_of_;               ///< per instance
-  std::vector<std::vector<std::uint32_t>> numbers_;  ///< per mesh; empty when every triangle is usable
+  std::vector<std::uint32_t> mesh_of_;                        ///< per instance
+  std::vector<std::vector<std::uint32_t>> numbers_;           ///< per mesh; empty when every triangle is usable
+  std::vector<std::unique_ptr<EmbreeUserMesh>> user_meshes_;  ///< what callbacks are given
   std::atomic<std::ptrdiff_t> bytes_ = 0;
 };
 

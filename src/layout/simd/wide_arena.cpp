@@ -9,6 +9,8 @@
 #include <new>
 #include <vector>
 
+#include "tree/tree.h"
+
 namespace boxwood {
 namespace {
 

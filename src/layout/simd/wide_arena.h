@@ -5,9 +5,10 @@
 #include "boxwood/scene.h"
 #include "layout/simd/arena.h"
 #include "layout/simd/wide_node.h"
-#include "tree/tree.h"
 
 namespace boxwood {
+
+struct Tree;
 
 /// A tree as the kernels see it. The root is always a node, even of an empty tree or of one leaf.
 struct WideView {

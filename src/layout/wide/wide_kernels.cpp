@@ -16,6 +16,8 @@ namespace HWY_NAMESPACE {
 /// A slot is the place of a link in memory, in units of a link's size.
 class WideTester {
  public:
+  using Slot = std::uint32_t;
+
   WideTester(const WideNodes& nodes, const PreparedRay& ray) : nodes_(nodes), memory_(nodes.memory.data()), ray_(ray) {
     for (int axis = 0; axis < 3; ++axis) {
       near_[axis] = static_cast<std::uint32_t>(axis + 3 * ray.negative[axis]) * nodes.k;

@@ -1,56 +1,49 @@
 #include "refine/optimal_collapse/collapse_costs.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
 
 namespace boxwood {
+namespace {
 
-CollapseCosts::CollapseCosts(const Tree& tree, const LinkTree& links, const CollapseOptions& options)
+constexpr std::uint32_t narrow = 8;
+/// Subtrees that tasks solve, about.
+constexpr std::size_t jobs = 256;
+
+}  // namespace
+
+CollapseCosts::CollapseCosts(const Tree& tree, const CollapseOptions& options)
     : tree_(tree),
-      links_(links),
       options_(options),
-      costs_(links.inner.size() * (options.k - 1)),
-      stride_(options.k - 1),
-      references_(links.inner.size()) {
-  // Children before parents: the reverse of any order that visits parents first.
-  struct Visit {
-    std::uint32_t inner;
-    Edge edge;
-  };
-  std::vector<Visit> order{{0, LinkTree::no_edge}};
-  order.reserve(links.inner.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (Edge edge = order[i].inner * 2; edge < order[i].inner * 2 + 2; ++edge) {
-      if (!links.child(edge).is_leaf()) order.push_back({links.child(edge).number(), edge});
-    }
-  }
-  for (std::size_t i = order.size(); i-- > 0;) {
-    const auto [inner, edge] = order[i];
-    solve(inner, edge == LinkTree::no_edge ? links.root_bounds : links.bounds(edge));
+      stride_(options.k <= narrow ? narrow : max_collapse_width),
+      costs_(tree.nodes.size() * stride_),
+      references_(tree.nodes.size()) {
+  if (stride_ == narrow) {
+    solve_all<narrow>();
+  } else {
+    solve_all<max_collapse_width>();
   }
 }
 
-float CollapseCosts::cost(Edge edge, std::uint32_t count) const {
-  const Child child = links_.child(edge);
-  if (child.is_leaf()) return leaf_cost(links_.bounds(edge), references(child));
-  return costs_[std::size_t{child.number()} * stride_ + std::min(count, stride_) - 1];
+bool CollapseCosts::is_leaf(std::uint32_t node) const {
+  if (tree_.nodes[node].is_leaf()) return true;
+  const Box& bounds = tree_.nodes[node].bounds;
+  return references_[node] <= options_.leaf &&
+         leaf_cost(bounds, references_[node]) <= half_area(bounds) + costs_of(node)[stride_ - 1];
 }
 
-std::uint32_t CollapseCosts::references(Child child) const {
-  return child.is_leaf() ? tree_.nodes[child.number()].count : references_[child.number()];
-}
-
-bool CollapseCosts::is_leaf(Child child, const Box& bounds) const {
-  if (child.is_leaf()) return true;
-  const std::uint32_t count = references(child);
-  return count <= options_.leaf && leaf_cost(bounds, count) <= inner_cost(child.number(), bounds);
-}
-
-std::uint32_t CollapseCosts::share_of_first(std::uint32_t inner, std::uint32_t count) const {
+std::uint32_t CollapseCosts::share_of_first(std::uint32_t node, std::uint32_t count) const {
+  const std::uint32_t first_child = tree_.nodes[node].first;
   std::uint32_t best = 1;
-  float least = 0;
+  float least = std::numeric_limits<float>::infinity();
   for (std::uint32_t first = 1; first < count; ++first) {
-    const float both = cost(inner * 2, first) + cost(inner * 2 + 1, count - first);
-    if (first == 1 || both < least) {
+    const float both = cost(first_child, first) + cost(first_child + 1, count - first);
+    if (both < least) {
       least = both;
       best = first;
     }
@@ -62,21 +55,62 @@ float CollapseCosts::leaf_cost(const Box& bounds, std::uint32_t references) cons
   return half_area(bounds) * static_cast<float>((references + options_.block - 1) / options_.block);
 }
 
-float CollapseCosts::inner_cost(std::uint32_t inner, const Box& bounds) const {
-  const std::uint32_t first = share_of_first(inner, options_.k);
-  return half_area(bounds) + cost(inner * 2, first) + cost(inner * 2 + 1, options_.k - first);
+template <std::uint32_t Width>
+void CollapseCosts::solve_all() {
+  // The nodes near the root, level by level, until enough subtrees hang below them.
+  std::vector<std::uint32_t> top, open{0};
+  while (!open.empty() && open.size() < jobs) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t node : open) {
+      top.push_back(node);
+      if (tree_.nodes[node].is_leaf()) continue;
+      next.push_back(tree_.nodes[node].first);
+      next.push_back(tree_.nodes[node].first + 1);
+    }
+    open = std::move(next);
+  }
+  tbb::enumerable_thread_specific<LargeVector<std::uint32_t>> orders;
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { solve_below<Width>(open[j], orders.local()); });
+  for (std::size_t i = top.size(); i-- > 0;) solve<Width>(top[i]);
 }
 
-void CollapseCosts::solve(std::uint32_t inner, const Box& bounds) {
-  const std::uint32_t count = references(links_.child(inner * 2)) + references(links_.child(inner * 2 + 1));
-  references_[inner] = count;
-  float* costs = &costs_[std::size_t{inner} * stride_];
-  costs[0] = inner_cost(inner, bounds);
-  if (count <= options_.leaf) costs[0] = std::min(costs[0], leaf_cost(bounds, count));
-  for (std::uint32_t nodes = 2; nodes <= stride_; ++nodes) {
-    const std::uint32_t first = share_of_first(inner, nodes);
-    costs[nodes - 1] = std::min(costs[nodes - 2], cost(inner * 2, first) + cost(inner * 2 + 1, nodes - first));
+/// Children before parents: the reverse of an order that visits parents first.
+template <std::uint32_t Width>
+void CollapseCosts::solve_below(std::uint32_t root, LargeVector<std::uint32_t>& order) {
+  order.assign(1, root);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Tree::Node& node = tree_.nodes[order[i]];
+    if (node.is_leaf()) continue;
+    order.push_back(node.first);
+    order.push_back(node.first + 1);
   }
+  for (std::size_t i = order.size(); i-- > 0;) solve<Width>(order[i]);
+}
+
+template <std::uint32_t Width>
+void CollapseCosts::solve(std::uint32_t number) {
+  const Tree::Node& node = tree_.nodes[number];
+  float* costs = &costs_[std::size_t{number} * Width];
+  if (node.is_leaf()) {
+    references_[number] = node.count;
+    std::fill_n(costs, Width, leaf_cost(node.bounds, node.count));
+    return;
+  }
+  const std::uint32_t references = references_[node.first] + references_[node.first + 1];
+  references_[number] = references;
+  const float* first = costs_of(node.first);
+  const float* second = costs_of(node.first + 1);
+  // pairs[i]: least cost of both children as i + 2 nodes.
+  std::array<float, Width - 1> pairs;
+  pairs.fill(std::numeric_limits<float>::infinity());
+  for (std::uint32_t i = 0; i < Width - 1; ++i) {
+    for (std::uint32_t j = 0; i + j < Width - 1; ++j) pairs[i + j] = std::min(pairs[i + j], first[i] + second[j]);
+  }
+  const float below = pairs[options_.k - 2];
+  costs[Width - 1] = below;
+  costs[0] = half_area(node.bounds) + below;
+  if (references <= options_.leaf) costs[0] = std::min(costs[0], leaf_cost(node.bounds, references));
+  for (std::uint32_t i = 1; i < Width - 1; ++i) costs[i] = std::min(costs[i - 1], pairs[i - 1]);
 }
 
 }  // namespace boxwood

@@ -4,124 +4,71 @@
 #include <algorithm>
 #include <vector>
 
-#include "refine/optimal_collapse/collapse_costs.h"
+#include "refine/optimal_collapse/chosen_children.h"
 #include "refine/optimal_collapse/stages.h"
+#include "refine/reinsert/link_tree.h"
+#include "tree/assemble.h"
 
 namespace boxwood {
 namespace {
 
-class Collapser {
+/// Writes one node of the collapsed tree. One per thread.
+class CollapsedWriter {
  public:
-  Collapser(const Tree& tree, const CollapseOptions& options)
-      : tree_(tree), links_(link(tree)), costs_(tree, links_, options), k_(options.k) {}
+  CollapsedWriter(const Tree& tree, const CollapseCosts& costs, const CollapseOptions& options)
+      : tree_(tree), costs_(costs), chooser_(tree, costs, options) {}
 
-  Tree run() {
-    out_.clipped_leaves = tree_.clipped_leaves;
-    out_.nodes.reserve(tree_.nodes.size());
-    out_.references.reserve(tree_.references.size());
-    out_.nodes.emplace_back().bounds = links_.root_bounds;
-    // Pending inner nodes, the next on top; depth first.
-    std::vector<Pending> pending;
-    if (costs_.is_root_leaf()) {
-      write_leaf(0, {0});
-    } else {
-      pending.push_back({0, 0});
+  void operator()(const CollapsedNode& item, Tree::Node& node, std::vector<CollapsedNode>& children,
+                  std::vector<std::uint32_t>& references) {
+    node.bounds = tree_.nodes[item.node].bounds;
+    if (!costs_.is_leaf(item.node)) {
+      node.axis = chooser_.choose(item.node, children) & 3;
+      return;
     }
-    while (!pending.empty()) {
-      const auto [inner, node] = pending.back();
-      pending.pop_back();
-      write_inner(inner, node, pending);
+    node.leaf = 1;
+    node.first = static_cast<std::uint32_t>(references.size());
+    append_references(item.node, node.first, references);
+    if (item.joined != CollapsedNode::nothing) {
+      node.bounds.grow(tree_.nodes[item.joined].bounds);
+      append_references(item.joined, node.first, references);
     }
-    return std::move(out_);
+    node.count = (static_cast<std::uint32_t>(references.size()) - node.first) & Tree::max_count;
   }
 
  private:
-  struct Pending {
-    std::uint32_t inner, node;
-  };
-
-  /// Lists what hangs side by side when what is at `edge` is written as at most `count` nodes. Recursion is less than k
-  /// deep.
-  void choose(Edge edge, std::uint32_t count) {
-    const Child child = links_.child(edge);
-    while (count > 1 && costs_.cost(edge, count - 1) <= costs_.cost(edge, count)) --count;
-    if (count == 1 || child.is_leaf()) {
-      chosen_.push_back(edge);
-    } else {
-      choose_below(child.number(), count);
-    }
-  }
-
-  void choose_below(std::uint32_t inner, std::uint32_t count) {
-    const std::uint32_t first = costs_.share_of_first(inner, count);
-    choose(inner * 2, first);
-    choose(inner * 2 + 1, count - first);
-  }
-
-  void write_inner(std::uint32_t inner, std::uint32_t node, std::vector<Pending>& pending) {
-    chosen_.clear();
-    choose_below(inner, k_);
-    const std::uint32_t axis = sort_chosen();
-    const auto first = static_cast<std::uint32_t>(out_.nodes.size());
-    out_.nodes[node].first = first;
-    out_.nodes[node].count = static_cast<std::uint32_t>(chosen_.size()) & Tree::max_count;
-    out_.nodes[node].axis = axis & 3;
-    for (const Edge edge : chosen_) out_.nodes.emplace_back().bounds = links_.bounds(edge);
-    for (std::size_t i = chosen_.size(); i-- > 0;) {
-      const auto place = first + static_cast<std::uint32_t>(i);
-      if (!costs_.is_leaf(chosen_[i])) pending.push_back({links_.child(chosen_[i]).number(), place});
-    }
-    for (std::size_t i = 0; i < chosen_.size(); ++i) {
-      const auto place = first + static_cast<std::uint32_t>(i);
-      if (costs_.is_leaf(chosen_[i])) write_leaf(place, links_.child(chosen_[i]));
-    }
-  }
-
-  /// Orders the chosen ones along the axis on which their centres lie furthest apart, and returns it.
-  std::uint32_t sort_chosen() {
-    Box centers;
-    for (const Edge edge : chosen_) centers.grow(links_.bounds(edge).center());
-    const auto axis = static_cast<std::size_t>(longest_axis(centers.extent()));
-    std::stable_sort(chosen_.begin(), chosen_.end(),
-                     [&](Edge a, Edge b) { return links_.bounds(a).center()[axis] < links_.bounds(b).center()[axis]; });
-    return static_cast<std::uint32_t>(axis);
-  }
-
-  void write_leaf(std::uint32_t place, Child child) {
-    Tree::Node& node = out_.nodes[place];
-    node.leaf = 1;
-    node.first = static_cast<std::uint32_t>(out_.references.size());
-    append_references(child, node.first);
-    node.count = (static_cast<std::uint32_t>(out_.references.size()) - node.first) & Tree::max_count;
-  }
-
   /// Parts of one primitive that meet in a leaf become one. Recursion is no deeper than a leaf has references.
-  void append_references(Child child, std::size_t leaf_begin) {
-    if (!child.is_leaf()) {
-      append_references(links_.child(child.number() * 2), leaf_begin);
-      append_references(links_.child(child.number() * 2 + 1), leaf_begin);
+  void append_references(std::uint32_t number, std::size_t leaf_begin, std::vector<std::uint32_t>& references) const {
+    const Tree::Node& node = tree_.nodes[number];
+    if (!node.is_leaf()) {
+      append_references(node.first, leaf_begin, references);
+      append_references(node.first + 1, leaf_begin, references);
       return;
     }
-    const Tree::Node& leaf = tree_.nodes[child.number()];
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const auto begin = out_.references.begin() + static_cast<std::ptrdiff_t>(leaf_begin);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const auto begin = references.begin() + static_cast<std::ptrdiff_t>(leaf_begin);
       const bool known =
-          tree_.clipped_leaves && std::find(begin, out_.references.end(), tree_.references[i]) != out_.references.end();
-      if (!known) out_.references.push_back(tree_.references[i]);
+          tree_.clipped_leaves && std::find(begin, references.end(), tree_.references[i]) != references.end();
+      if (!known) references.push_back(tree_.references[i]);
     }
   }
 
   const Tree& tree_;
-  LinkTree links_;
-  CollapseCosts costs_;
-  std::uint32_t k_;
-  std::vector<Edge> chosen_;
-  Tree out_;
+  const CollapseCosts& costs_;
+  ChildChooser chooser_;
 };
+
+bool is_binary(const Tree& tree) {
+  return std::ranges::all_of(tree.nodes, [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
+}
 
 Tree optimal_collapse(const CollapseOptions& options, Tree tree) {
   if (tree.nodes.size() < 2) return tree;
-  return Collapser(tree, options).run();
+  if (!is_binary(tree)) tree = relink(link(tree), tree);
+  const CollapseCosts costs(tree, options);
+  Tree out = assemble(CollapsedNode{0}, tree.nodes.size(), tree.references.size(),
+                      [&] { return CollapsedWriter(tree, costs, options); });
+  out.clipped_leaves = tree.clipped_leaves;
+  return out;
 }
 
 }  // namespace
@@ -131,7 +78,8 @@ Stage optimal_collapse_stage() {
   options.integer("k", &CollapseOptions::k, 2, max_collapse_width, "most children per node")
       .positional()
       .integer("leaf", &CollapseOptions::leaf, 1, 64, "most references in a leaf made of smaller ones")
-      .integer("block", &CollapseOptions::block, 1, 16, "references tested at the price of one node");
+      .integer("block", &CollapseOptions::block, 1, 16, "references tested at the price of one node")
+      .flag("pack", &CollapseOptions::pack, "join leaves of one node, also distant ones, where the cost does not grow");
   return refinement_stage<CollapseOptions>("optimal-collapse", "k-wide nodes and leaves at the least cost there is",
                                            "Wald et al. 2008; Ylitie et al. 2017", options, optimal_collapse,
                                            [](const CollapseOptions& o) { return o.k; });

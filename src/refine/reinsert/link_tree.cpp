@@ -2,19 +2,11 @@
 
 #include <utility>
 
-#include "math/huge_pages.h"
+#include "tree/assemble.h"
 #include "tree/child_axis.h"
 
 namespace boxwood {
 namespace {
-
-/// Appends a leaf's references to `out` and sets the leaf in `to`.
-void copy_leaf(const Tree& from, const Tree::Node& leaf, Tree::Node& to, std::vector<std::uint32_t>& out) {
-  to = leaf;
-  to.first = static_cast<std::uint32_t>(out.size());
-  const auto first = from.references.begin() + leaf.first;
-  out.insert(out.end(), first, first + leaf.count);
-}
 
 class Linker {
  public:
@@ -29,8 +21,6 @@ class Linker {
       leaves += leaf ? 1 : 0;
     }
     links_.root_bounds = tree_.nodes.front().bounds;
-    links_.inner.reserve(leaves - 1);
-    prefer_huge_pages(links_.inner.data(), (leaves - 1) * sizeof(LinkTree::Inner));
     links_.inner.resize(leaves - 1);
     links_.inner.front().up = LinkTree::no_edge;
     for (std::size_t i = 0; i < number_.size(); ++i) {
@@ -63,7 +53,7 @@ class Linker {
   }
 
   const Tree& tree_;
-  std::vector<std::uint32_t> number_;
+  LargeVector<std::uint32_t> number_;
   std::uint32_t next_inner_ = 0;
   LinkTree links_;
 };
@@ -73,40 +63,27 @@ class Linker {
 LinkTree link(const Tree& tree) { return Linker(tree).run(); }
 
 Tree relink(const LinkTree& links, const Tree& tree) {
-  Tree out;
-  out.clipped_leaves = tree.clipped_leaves;
-  out.nodes.reserve(tree.nodes.size());
-  prefer_huge_pages(out.nodes.data(), out.nodes.capacity() * sizeof(Tree::Node));
-  out.references.reserve(tree.references.size());
-  out.nodes.emplace_back().bounds = links.root_bounds;
-  struct Pending {
-    std::uint32_t inner, node;
-  };
-  std::vector<Pending> pending{{0, 0}};
-  while (!pending.empty()) {
-    const auto [inner, node] = pending.back();
-    pending.pop_back();
-    const LinkTree::Inner& from = links.inner[inner];
-    const ChildAxis axis = child_axis(from.bounds[0], from.bounds[1]);
-    const auto first = static_cast<std::uint32_t>(out.nodes.size());
-    out.nodes[node].first = first;
-    out.nodes[node].count = 2;
-    out.nodes[node].axis = axis.axis & 3;
-    for (std::uint32_t place = 0; place < 2; ++place) {
-      const std::uint32_t side = axis.descending ? 1 - place : place;
-      Tree::Node& to = out.nodes.emplace_back();
-      to.bounds = from.bounds[side];
-      const Child child = from.children[side];
-      if (child.is_leaf()) {
-        copy_leaf(tree, tree.nodes[child.number()], to, out.references);
-      } else {
-        pending.push_back({child.number(), first + place});
-      }
+  // Of the root, which has no edge, `no_edge`.
+  const auto write = [&](Edge edge, Tree::Node& node, std::vector<Edge>& children,
+                         std::vector<std::uint32_t>& references) {
+    const bool root = edge == LinkTree::no_edge;
+    const Child child = root ? Child{0} : links.child(edge);
+    if (child.is_leaf()) {
+      node = tree.nodes[child.number()];
+      const auto first = tree.references.begin() + node.first;
+      node.first = static_cast<std::uint32_t>(references.size());
+      references.insert(references.end(), first, first + node.count);
+      return;
     }
-    // Two inner children: the first is to be written next.
-    const std::size_t size = pending.size();
-    if (size >= 2 && pending[size - 2].node == first) std::swap(pending[size - 2], pending[size - 1]);
-  }
+    const LinkTree::Inner& inner = links.inner[child.number()];
+    const ChildAxis axis = child_axis(inner.bounds[0], inner.bounds[1]);
+    const Edge first = child.number() * 2 + (axis.descending ? 1 : 0);
+    node.bounds = root ? links.root_bounds : links.bounds(edge);
+    node.axis = axis.axis & 3;
+    children = {first, LinkTree::sibling(first)};
+  };
+  Tree out = assemble(LinkTree::no_edge, tree.nodes.size(), tree.references.size(), [&] { return write; });
+  out.clipped_leaves = tree.clipped_leaves;
   return out;
 }
 

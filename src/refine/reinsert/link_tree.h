@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
-#include <vector>
 
 #include "boxwood/box.h"
+#include "math/large_memory.h"
 #include "tree/tree.h"
 
 namespace boxwood {
@@ -31,7 +31,7 @@ struct LinkTree {
   static_assert(sizeof(Inner) == 64);
   static constexpr Edge no_edge = ~0u;
 
-  std::vector<Inner> inner;  ///< the root first
+  LargeVector<Inner> inner;  ///< the root first
   Box root_bounds;
 
   Inner& parent(Edge edge) { return inner[edge >> 1]; }

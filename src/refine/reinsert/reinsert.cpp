@@ -5,6 +5,8 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <vector>
 
 #include "refine/reinsert/apply_reinsertion.h"
@@ -20,25 +22,49 @@ struct ReinsertOptions {
   std::uint32_t rounds = 3;
 };
 
-/// The edges with the largest boxes, without those at the root: there is most to win there. Sorted.
-std::vector<Edge> largest_edges(const LinkTree& tree, float fraction) {
-  std::vector<float> areas(tree.inner.size() * 2);
-  tbb::parallel_for(std::size_t{0}, areas.size(),
-                    [&](std::size_t e) { areas[e] = half_area(tree.bounds(static_cast<Edge>(e))); });
-  std::vector<Edge> edges(areas.size() - 2);
-  for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = static_cast<Edge>(i) + 2;
-  const auto count = static_cast<std::ptrdiff_t>(static_cast<double>(edges.size()) * double{fraction});
-  const auto larger = [&](Edge a, Edge b) { return areas[a] != areas[b] ? areas[a] > areas[b] : a < b; };
-  std::nth_element(edges.begin(), edges.begin() + count, edges.end(), larger);
-  edges.resize(static_cast<std::size_t>(count));
-  std::sort(edges.begin(), edges.end());
-  return edges;
+/// Areas sorted roughly: by exponent and the first bits of the mantissa, so that one class spans a sixteenth.
+constexpr std::size_t area_classes = 4096;
+std::uint16_t area_class(const Box& bounds) {
+  return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(half_area(bounds)) >> 19 & (area_classes - 1));
+}
+
+/// The edges with the largest boxes, to a sixteenth, without those at the root: there is most to win there. Ascending.
+LargeVector<Edge> largest_edges(const LinkTree& tree, float fraction) {
+  using Counts = std::array<std::uint32_t, area_classes>;
+  const std::size_t edges = tree.inner.size() * 2;
+  RawArray<std::uint16_t> classes(edges);
+  tbb::enumerable_thread_specific<Counts> counts_of_threads(Counts{});
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(2, edges, 1 << 14), [&](const auto& range) {
+    Counts& counts = counts_of_threads.local();
+    for (std::size_t e = range.begin(); e < range.end(); ++e) {
+      classes[e] = area_class(tree.bounds(static_cast<Edge>(e)));
+      ++counts[classes[e]];
+    }
+  });
+  const auto wanted = static_cast<std::size_t>(static_cast<double>(edges - 2) * double{fraction});
+  // The class in which the wanted number is reached: of it the first edges are taken.
+  std::size_t reached = area_classes, taken = 0, of_class = 0;
+  while (reached > 0 && taken + of_class <= wanted) {
+    taken += of_class;
+    --reached;
+    of_class = 0;
+    for (const Counts& counts : counts_of_threads) of_class += counts[reached];
+  }
+  std::size_t room = std::min(wanted - taken, of_class);
+  LargeVector<Edge> largest;
+  largest.reserve(taken + room);
+  for (std::size_t e = 2; e < edges; ++e) {
+    if (classes[e] < reached || (classes[e] == reached && room == 0)) continue;
+    if (classes[e] == reached) --room;
+    largest.push_back(static_cast<Edge>(e));
+  }
+  return largest;
 }
 
 /// One round: find places for a batch of subtrees in the tree as it is, then move those that still fit, best first.
 /// Returns whether any moved.
 bool improve(LinkTree& tree, ReinsertionApplier& applier, float batch) {
-  const std::vector<Edge> edges = largest_edges(tree, batch);
+  const LargeVector<Edge> edges = largest_edges(tree, batch);
   std::vector<Reinsertion> moves(edges.size());
   tbb::enumerable_thread_specific<ReinsertionFinder> finders([&] { return ReinsertionFinder(tree); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 64), [&](const auto& range) {

@@ -49,7 +49,12 @@ Material to_material(const aiMaterial& from) {
   color(AI_MATKEY_COLOR_EMISSIVE, to.emission);
   color(AI_MATKEY_COLOR_SPECULAR, to.specular);
   from.Get(AI_MATKEY_SHININESS, to.shininess);
-  from.Get(AI_MATKEY_OPACITY, to.opacity);
+  float opacity = 1;
+  if (from.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity >= 0 && opacity < 1) {
+    to.diffuse = to.diffuse * opacity;
+    to.specular = to.specular * opacity;
+    to.transmission = Vec3{1, 1, 1} * (1 - opacity);
+  }
   from.Get(AI_MATKEY_REFRACTI, to.refraction_index);
   return to;
 }
@@ -140,10 +145,22 @@ class AssimpConverter {
 
   void add_lights() {
     for (unsigned i = 0; i < from_.mNumLights; ++i) {
-      const aiLight& light = *from_.mLights[i];
-      if (light.mType != aiLightSource_POINT) continue;
-      scene_.lights.push_back(
-          {transform_of(light.mName).point(to_vec3(light.mPosition)), to_vec3(light.mColorDiffuse)});
+      const aiLight& from = *from_.mLights[i];
+      const Transform to_world = transform_of(from.mName);
+      Light light;
+      light.position = to_world.point(to_vec3(from.mPosition));
+      light.intensity = to_vec3(from.mColorDiffuse);
+      light.direction = normalize(to_world.vector(to_vec3(from.mDirection)));
+      if (from.mType == aiLightSource_DIRECTIONAL) {
+        light.kind = LightKind::distant;
+      } else if (from.mType == aiLightSource_SPOT) {
+        light.kind = LightKind::spot;
+        light.full_cosine = std::cos(from.mAngleInnerCone);
+        light.dark_cosine = std::cos(from.mAngleOuterCone);
+      } else if (from.mType != aiLightSource_POINT) {
+        continue;
+      }
+      scene_.lights.push_back(light);
     }
   }
 

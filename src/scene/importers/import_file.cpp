@@ -5,6 +5,7 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 
+#include "scene/importers/gzip_file.h"
 #include "scene/importers/importer.h"
 
 namespace boxwood {
@@ -12,6 +13,7 @@ namespace {
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
+  if (is_gzip_name(file)) extension = file.stem().extension().string() + extension;
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
@@ -24,7 +26,7 @@ Import find_importer(const std::filesystem::path& file) {
     if (std::find(known.begin(), known.end(), extension) != known.end()) return importer.import;
   }
   if (!extension.empty() && Assimp::Importer().IsExtensionSupported(extension)) return import_with_assimp;
-  throw Error(fmt::format("{}: '{}' is no mesh format known here; convert it to OBJ, PLY, glTF, GLB, STL or OFF",
+  throw Error(fmt::format("{}: '{}' is no mesh format known here; convert it to OBJ, PLY, glTF, GLB, STL, OFF or pbrt",
                           file.string(), extension));
 }
 
@@ -32,8 +34,9 @@ Import find_importer(const std::filesystem::path& file) {
 
 std::span<const Importer> importers() {
   static const std::vector<Importer> all = {{{".obj"}, import_obj},
-                                            {{".ply"}, import_ply},
+                                            {{".ply", ".ply.gz"}, import_ply},
                                             {{".stl"}, import_stl},
+                                            {{".pbrt", ".pbrt.gz"}, import_pbrt},
                                             {{".gltf", ".glb", ".off"}, import_with_assimp}};
   return all;
 }

@@ -1,4 +1,4 @@
-// Materials of Wavefront OBJ files: colours, shininess, opacity and refraction index; textures are passed over.
+// Materials of Wavefront OBJ files: colours, shininess, opacity, refraction and mirrors; textures are passed over.
 #include <algorithm>
 
 #include "scene/importers/importer.h"
@@ -19,7 +19,14 @@ void read_color(TextCursor& cursor, Vec3& color) {
   color.z = grey ? color.x : cursor.number("a colour");
 }
 
-void read_statement(TextCursor& cursor, std::string_view keyword, Material& material, bool& has_opacity) {
+/// What a material is made of only once all of its statements are known.
+struct Optics {
+  float opacity = 1;
+  bool has_opacity = false;
+  float illumination_model = 2;
+};
+
+void read_statement(TextCursor& cursor, std::string_view keyword, Material& material, Optics& optics) {
   if (keyword == "Kd") {
     read_color(cursor, material.diffuse);
   } else if (keyword == "Ke") {
@@ -31,10 +38,28 @@ void read_statement(TextCursor& cursor, std::string_view keyword, Material& mate
   } else if (keyword == "Ni") {
     material.refraction_index = cursor.number("a refraction index");
   } else if (keyword == "d") {
-    material.opacity = std::clamp(cursor.number("an opacity"), 0.0f, 1.0f);
-    has_opacity = true;
-  } else if (keyword == "Tr" && !has_opacity) {
-    material.opacity = std::clamp(1 - cursor.number("a transparency"), 0.0f, 1.0f);
+    optics.opacity = std::clamp(cursor.number("an opacity"), 0.0f, 1.0f);
+    optics.has_opacity = true;
+  } else if (keyword == "Tr" && !optics.has_opacity) {
+    optics.opacity = std::clamp(1 - cursor.number("a transparency"), 0.0f, 1.0f);
+  } else if (keyword == "illum") {
+    optics.illumination_model = cursor.number("an illumination model");
+  }
+}
+
+/// Illumination models 3, 5 and 8 are mirrors, 6 and 7 refract; of the others, what is not opaque lets light through.
+void apply(const Optics& optics, Material& material) {
+  const float model = optics.illumination_model;
+  if (model == 3 || model == 5 || model == 8) {
+    material.reflection = material.specular;
+    material.specular = {};
+  } else if (model == 6 || model == 7) {
+    material.reflection = material.transmission = {1, 1, 1};
+    material.specular = {};
+  } else if (optics.opacity < 1) {
+    material.diffuse = material.diffuse * optics.opacity;
+    material.specular = material.specular * optics.opacity;
+    material.transmission = Vec3{1, 1, 1} * (1 - optics.opacity);
   }
 }
 
@@ -43,16 +68,21 @@ void read_statement(TextCursor& cursor, std::string_view keyword, Material& mate
 std::vector<Material> read_mtl(const std::filesystem::path& file) {
   const std::string text = read_whole_file(file);
   std::vector<Material> materials;
-  bool has_opacity = false;
+  Optics optics;
+  const auto finish = [&] {
+    if (!materials.empty()) apply(optics, materials.back());
+    optics = {};
+  };
   for (TextCursor cursor(text, file.string()); !cursor.at_end(); cursor.next_line()) {
     const std::string_view keyword = cursor.word();
     if (keyword == "newmtl") {
+      finish();
       materials.emplace_back().name = cursor.rest_of_line();
-      has_opacity = false;
     } else if (!materials.empty()) {
-      read_statement(cursor, keyword, materials.back(), has_opacity);
+      read_statement(cursor, keyword, materials.back(), optics);
     }
   }
+  finish();
   return materials;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "scene/importers/gzip_file.h"
 #include "scene/importers/importer.h"
 #include "scene/importers/ply_header.h"
 #include "scene/importers/ply_values.h"
@@ -39,7 +40,7 @@ class PlyReader {
  public:
   PlyReader(Values values, std::string file) : values_(std::move(values)), file_(std::move(file)) {}
 
-  Scene read(const PlyHeader& header) {
+  Mesh read(const PlyHeader& header, std::vector<std::string>& messages) {
     for (const PlyElement& element : header.elements) {
       check_count(element);
       if (element.name == "vertex") {
@@ -50,12 +51,9 @@ class PlyReader {
         for (std::uint64_t i = 0; i < element.count; ++i, check_end(element, i)) pass_over(element.properties);
       }
     }
-    Scene scene;
-    out_of_range_.report(scene.notes.messages);
-    too_short_.report(scene.notes.messages);
-    scene.meshes.push_back(std::move(mesh_));
-    scene.instances.push_back({0, {}});
-    return scene;
+    out_of_range_.report(messages);
+    too_short_.report(messages);
+    return std::move(mesh_);
   }
 
  private:
@@ -204,25 +202,33 @@ class PlyReader {
 };
 
 template <class Values>
-Scene read_values(std::string_view bytes, const PlyHeader& header, const std::string& file) {
-  return PlyReader<Values>(Values(bytes, header, file), file).read(header);
+Mesh read_values(std::string_view bytes, const PlyHeader& header, const std::string& file,
+                 std::vector<std::string>& messages) {
+  return PlyReader<Values>(Values(bytes, header, file), file).read(header, messages);
 }
 
 }  // namespace
 
-Imported import_ply(const std::filesystem::path& file) {
-  const std::string bytes = read_whole_file(file);
+Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& messages) {
+  const std::string bytes = is_gzip_name(file) ? read_gzip_file(file) : read_whole_file(file);
   const std::string name = file.string();
   const PlyHeader header = read_ply_header(bytes, name);
   switch (header.format) {
     case PlyFormat::ascii:
-      return {read_values<PlyWords>(bytes, header, name), {file}};
+      return read_values<PlyWords>(bytes, header, name, messages);
     case PlyFormat::binary_little_endian:
-      return {read_values<PlyBytes<std::endian::little>>(bytes, header, name), {file}};
+      return read_values<PlyBytes<std::endian::little>>(bytes, header, name, messages);
     case PlyFormat::binary_big_endian:
-      return {read_values<PlyBytes<std::endian::big>>(bytes, header, name), {file}};
+      return read_values<PlyBytes<std::endian::big>>(bytes, header, name, messages);
   }
   return {};
+}
+
+Imported import_ply(const std::filesystem::path& file) {
+  Imported imported{{}, {file}};
+  imported.scene.meshes.push_back(read_ply(file, imported.scene.notes.messages));
+  imported.scene.instances.push_back({0, {}});
+  return imported;
 }
 
 }  // namespace boxwood

@@ -1,0 +1,42 @@
+#include "trace/scalar_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "layout/slab/slab_32_kernels.cpp"
+#include <hwy/foreach_target.h>
+//
+#include "layout/slab/split_kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+Kernels<SlabNodes32, TriangleLeaves> choose_slab_32_over_triangles(const TraceOptions& options, std::uint32_t packet) {
+  return split_kernels_over_triangles<SlabNodes32>(options, packet);
+}
+
+Kernels<SlabNodes32, InstanceLeaves> choose_slab_32_over_instances(const TraceOptions& options) {
+  return split_kernels_over_instances<SlabNodes32>(options);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+
+HWY_EXPORT(choose_slab_32_over_triangles);
+HWY_EXPORT(choose_slab_32_over_instances);
+
+template <>
+Kernels<SlabNodes32, TriangleLeaves> split_triangle_kernels(const TraceOptions& options, std::uint32_t packet) {
+  return HWY_DYNAMIC_DISPATCH(choose_slab_32_over_triangles)(options, packet);
+}
+
+template <>
+Kernels<SlabNodes32, InstanceLeaves> split_instance_kernels(const TraceOptions& options) {
+  return HWY_DYNAMIC_DISPATCH(choose_slab_32_over_instances)(options);
+}
+
+}  // namespace boxwood
+#endif

@@ -1,0 +1,19 @@
+#pragma once
+#include "boxwood/box.h"
+#include "layout/slab/split_word.h"
+#include "tree/tree.h"
+
+namespace boxwood {
+
+inline float& side_of(Box& box, Side side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
+inline float side_of(const Box& box, Side side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
+
+/// Cuts `region`, which holds `box`, by the side of `box` that leaves the smallest surface, and says which that is. Of
+/// equal ones the last, in the order lower x, upper x, lower y, … (spec 003, 2.3).
+Side cut_by_best_side(const Box& box, Box& region);
+
+/// Mean over all nodes of the surface of the region that single slabs along the path guarantee, in parts of the surface
+/// of the node's own box; at least 1. Nodes whose box has no surface are left out. 0 for an empty tree. O(nodes).
+double slab_surface_ratio(const Tree& tree);
+
+}  // namespace boxwood

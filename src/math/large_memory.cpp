@@ -1,0 +1,129 @@
+#include "math/large_memory.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+// Under the address sanitizer every block comes from the heap, where it is watched.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+#define BOXWOOD_MAPS_LARGE_MEMORY
+#endif
+
+namespace boxwood {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+#ifdef BOXWOOD_MAPS_LARGE_MEMORY
+
+constexpr std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
+
+/// Maps a huge page too much and gives back what lies outside the aligned range.
+std::byte* map(std::size_t size) {
+  void* mapped = mmap(nullptr, size + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  auto* begin = static_cast<std::byte*>(mapped);
+  void* end = begin + huge_page;
+  std::size_t room = size + huge_page;
+  void* aligned = begin;
+  std::align(huge_page, size, aligned, room);
+  auto* memory = static_cast<std::byte*>(aligned);
+  if (memory > begin) munmap(begin, static_cast<std::size_t>(memory - begin));
+  if (memory < end) munmap(memory + size, static_cast<std::size_t>(static_cast<std::byte*>(end) - memory));
+  madvise(memory, size, MADV_HUGEPAGE);  // A wish: without huge pages everything works, only slower.
+  return memory;
+}
+
+struct Block {
+  std::byte* memory;
+  std::size_t size;
+};
+
+/// The blocks there are: few, so that lists do.
+class Blocks {
+ public:
+  std::byte* allocate(std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    used_.reserve(used_.size() + 1);
+    free_.reserve(used_.size() + free_.size() + 2);  // free() must not fail.
+    // The smallest freed block that will do and is not twice as large.
+    auto best = free_.end();
+    for (auto block = free_.begin(); block != free_.end(); ++block) {
+      if (block->size < size || block->size > 2 * size) continue;
+      if (best == free_.end() || block->size < best->size) best = block;
+    }
+    if (best == free_.end()) {
+      used_.push_back({map(size), size});
+      return used_.back().memory;
+    }
+    used_.push_back(*best);
+    free_.erase(best);
+    free_bytes_ -= used_.back().size;
+    return used_.back().memory;
+  }
+
+  void free(std::byte* memory) noexcept {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(used_, memory, &Block::memory);
+    const Block block = *found;
+    used_.erase(found);
+    if (block.size > kept_large_bytes) {
+      munmap(block.memory, block.size);
+      return;
+    }
+    free_.push_back(block);
+    free_bytes_ += block.size;
+    while (free_bytes_ > kept_large_bytes) {
+      const Block oldest = free_.front();
+      munmap(oldest.memory, oldest.size);
+      free_bytes_ -= oldest.size;
+      free_.erase(free_.begin());
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Block> used_, free_;  ///< those freed first come first
+  std::size_t free_bytes_ = 0;
+};
+
+/// Never destroyed: arrays with static storage may be freed after it would be.
+Blocks& blocks() {
+  static Blocks* const all = new Blocks;
+  return *all;
+}
+
+#endif
+
+}  // namespace
+
+#ifdef BOXWOOD_MAPS_LARGE_MEMORY
+
+void* allocate_large(std::size_t bytes) { return blocks().allocate(whole_pages(bytes)); }
+void free_large(void* memory) noexcept { blocks().free(static_cast<std::byte*>(memory)); }
+
+void prefer_huge_pages(void* begin, std::size_t bytes) {
+  // The page with the heap's header belongs to the first huge page and has been touched, so that one has to be
+  // collapsed.
+  constexpr std::uintptr_t small_page = 4096;
+  constexpr int collapse = 25;  // MADV_COLLAPSE, which older headers lack; older systems refuse it.
+  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(begin) / small_page * small_page;
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / small_page * small_page;
+  madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  if (first % huge_page == 0 && end - first >= huge_page) madvise(reinterpret_cast<void*>(first), huge_page, collapse);
+}
+
+#else
+
+void prefer_huge_pages(void*, std::size_t) {}
+void* allocate_large(std::size_t bytes) { return ::operator new (bytes, std::align_val_t{huge_page}); }
+void free_large(void* memory) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
+
+#endif
+
+}  // namespace boxwood

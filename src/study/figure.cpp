@@ -1,0 +1,181 @@
+#include "study/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/probe.h"
+#include "measure/significance.h"
+#include "options/options.h"
+
+namespace boxwood {
+namespace {
+
+/// A series, and what it is held against.
+struct Member {
+  const Series* series;
+  const Series* baseline = nullptr;
+};
+
+bool is_exact(const Expression& value) {
+  for (const Probe& probe : probes()) {
+    for (const Metric& metric : probe.metrics) {
+      if (probe.repeated && value.metrics().contains(metric.name)) return false;
+    }
+  }
+  return true;
+}
+
+/// The factors that the baseline of `factors` must have. A recipe named in the baseline stands for all of its own.
+Factors baseline_factors(const Factors& factors, const Where& baseline) {
+  Factors wanted = factors;
+  wanted.erase("recipe");
+  for (const auto& [factor, levels] : baseline) wanted[factor] = levels.front();
+  return wanted;
+}
+
+/// A candidate need not have all factors that are wanted (a binary tree has no mode of widening), but those it has must
+/// be right, and those that the baseline names must be there.
+bool is_baseline(const Factors& candidate, const Factors& wanted, const Where& baseline) {
+  if (!matches(candidate, baseline)) return false;
+  const bool by_recipe = baseline.contains("recipe");
+  return std::ranges::all_of(candidate, [&](const auto& entry) {
+    const bool place = entry.first == "scene" || entry.first == "rays" || entry.first == "view";
+    if (!place && (by_recipe || entry.first == "recipe")) return true;
+    const auto found = wanted.find(entry.first);
+    return found != wanted.end() && found->second == entry.second;
+  });
+}
+
+/// Null when it was not measured.
+const Series* find_baseline(const std::vector<Series>& all, const Series& series, const Where& baseline) {
+  const Factors wanted = baseline_factors(series.factors, baseline);
+  const Series* found = nullptr;
+  for (const Series& candidate : all) {
+    if (!is_baseline(candidate.factors, wanted, baseline)) continue;
+    if (found && found->samples != candidate.samples) {
+      throw UsageError(fmt::format("the baseline of {} could be {} or {}; name more factors in 'baseline'",
+                                   cell_name(series.factors), cell_name(found->factors), cell_name(candidate.factors)));
+    }
+    found = &candidate;
+  }
+  return found;
+}
+
+std::vector<Member> members_of(const std::vector<Series>& all, const FigureSpec& figure) {
+  std::vector<Member> members;
+  for (const Series& series : all) {
+    if (!matches(series.factors, figure.where)) continue;
+    Member member{&series};
+    if (!figure.baseline.empty()) {
+      member.baseline = find_baseline(all, series, figure.baseline);
+      if (!member.baseline) continue;
+      const auto positive = [](const std::vector<double>& samples) {
+        return std::ranges::all_of(samples, [](double x) { return x > 0; });
+      };
+      if (!positive(series.samples) || !positive(member.baseline->samples)) continue;
+    }
+    members.push_back(member);
+  }
+  return members;
+}
+
+/// Per repetition, as many as all have: the geometric or arithmetic mean.
+std::vector<double> mean_series(const std::vector<const Series*>& all, bool geometric) {
+  std::size_t repetitions = all.front()->samples.size();
+  for (const Series* series : all) repetitions = std::min(repetitions, series->samples.size());
+  std::vector<double> out;
+  for (std::size_t r = 0; r < repetitions; ++r) {
+    double sum = 0;
+    for (const Series* series : all) sum += geometric ? std::log(series->samples[r]) : series->samples[r];
+    sum /= static_cast<double>(all.size());
+    out.push_back(geometric ? std::exp(sum) : sum);
+  }
+  return out;
+}
+
+void estimate(Cell& cell, const RunSpec& run) {
+  const BootstrapSettings settings{.centre = run.centre == "mean" ? Centre::mean : Centre::median};
+  if (cell.baseline.empty()) {
+    cell.estimate = bootstrap_centre(cell.values, settings);
+    cell.mean = mean(cell.values);
+    return;
+  }
+  const std::size_t pairs = std::min(cell.values.size(), cell.baseline.size());
+  cell.values.resize(pairs);
+  cell.baseline.resize(pairs);
+  cell.estimate = bootstrap_ratio(cell.baseline, cell.values, true, settings);
+  cell.mean = mean(cell.baseline) / mean(cell.values);
+}
+
+double triangles_of(const Observations& observations, const std::string& scene) {
+  const auto found = std::ranges::find(observations.scenes(), scene, &SceneFacts::name);
+  return found == observations.scenes().end() ? 0 : static_cast<double>(found->triangles);
+}
+
+/// The levels of `each`; nothing when the series lacks one.
+std::optional<Factors> levels_for(const Series& series, const std::vector<std::string>& each) {
+  Factors out;
+  for (const std::string& factor : each) {
+    const auto found = series.factors.find(factor);
+    if (found == series.factors.end()) return std::nullopt;
+    out[factor] = found->second;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Cell> cells(const Study& study, const Observations& observations, const FigureSpec& figure,
+                        const std::vector<std::string>& each) {
+  const Expression value = Expression::parse(figure.value);
+  const std::vector<Series> all = observations.series(value, figure.each_view);
+  std::vector<std::pair<Factors, std::vector<Member>>> groups;
+  for (const Member& member : members_of(all, figure)) {
+    const std::optional<Factors> levels = levels_for(*member.series, each);
+    if (!levels) continue;
+    const auto group = std::ranges::find(groups, *levels, &std::pair<Factors, std::vector<Member>>::first);
+    if (group == groups.end()) {
+      groups.push_back({*levels, {member}});
+    } else {
+      group->second.push_back(member);
+    }
+  }
+
+  std::vector<Cell> out;
+  for (const auto& [levels, members] : groups) {
+    Cell cell;
+    cell.factors = levels;
+    cell.members = members.size();
+    cell.exact = is_exact(value);
+    std::vector<const Series*> values, baselines;
+    for (const Member& member : members) {
+      values.push_back(member.series);
+      if (member.baseline) baselines.push_back(member.baseline);
+      cell.triangles = std::max(cell.triangles, triangles_of(observations, member.series->factors.at("scene")));
+    }
+    cell.values = mean_series(values, !baselines.empty());
+    if (!baselines.empty()) cell.baseline = mean_series(baselines, true);
+    estimate(cell, study.run);
+    out.push_back(std::move(cell));
+  }
+  return out;
+}
+
+std::string cell_name(const Factors& factors) {
+  std::vector<std::string> parts;
+  for (const auto& [factor, level] : factors) parts.push_back(factor + " " + level);
+  return parts.empty() ? "all" : option_text::join(parts, ", ");
+}
+
+std::vector<std::string> levels_of(const std::vector<Cell>& cells, const std::string& factor) {
+  std::vector<std::string> levels;
+  for (const Cell& cell : cells) {
+    const std::string& level = cell.factors.at(factor);
+    if (std::ranges::find(levels, level) == levels.end()) levels.push_back(level);
+  }
+  return levels;
+}
+
+}  // namespace boxwood

@@ -1,0 +1,162 @@
+// Running a study: everything is measured once, whatever interrupts it.
+#include "study/run_study.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "study/studies.h"
+#include "study/study_result.h"
+
+namespace boxwood::testing {
+namespace {
+
+const char* const small_study = R"toml(
+pictures = ["wide(4)"]
+[run]
+rays = ["primary", "shadow"]
+size = [12, 10]
+repetitions = 3
+builds = 2
+probes = ["build", "size", "tree", "time", "tests", "answers", "image"]
+[quick]
+repetitions = 1
+frames = 2
+[[scene]]
+name = "ring"
+find = ["no-such-file.ply", "generate:torus(detail=8)"]
+orbit = { frames = 3 }
+[[scene]]
+name = "city"
+find = ["generate:city(blocks=2)"]
+[[recipes]]
+label = "{layout}"
+recipe = "binned > {layout}"
+values = { layout = ["binary", "wide(4)"] }
+[[table]]
+id = "times"
+value = "trace_ms + build_ms"
+rows = ["scene"]
+columns = ["layout", "rays"]
+[[claim]]
+id = "A"
+text = "both answer alike"
+value = "answers_hash"
+views = "each"
+each = ["scene", "view", "rays"]
+same = true
+[[claim]]
+id = "B"
+text = "as many triangles are tested"
+value = "primitive_tests"
+where = { layout = "wide(4)", rays = "primary" }
+baseline = { layout = "binary" }
+each = ["scene"]
+above = 0.2
+)toml";
+
+/// 4 views, 2 ray kinds, 2 recipes: 3 timings, tests, answers, image each; 2 scenes, 2 recipes: 2 builds, size, tree.
+constexpr std::size_t all_measurements = 4 * 2 * 2 * (3 + 1 + 1 + 1) + 2 * 2 * (2 + 1 + 1);
+
+TEST(RunStudy, MeasuresEverythingOnce) {
+  const TemporaryStore folder;
+  Store store = folder.open();
+  const Study study = parse_study(small_study, "small.toml");
+  std::vector<std::string> notes;
+  StudySettings settings;
+  settings.note = [&](std::string_view note) { notes.emplace_back(note); };
+  const std::int64_t here = run_study(study, store, settings);
+  // Pictures are of primary rays only, so shadow rays have no value of that probe.
+  const std::size_t found = store.keys("small", here).size();
+  EXPECT_EQ(found, all_measurements);
+  run_study(study, store, settings);
+  EXPECT_EQ(store.keys("small", here).size(), found);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes[0].find("no-such-file.ply"), std::string::npos) << notes[0];
+
+  const StudyResult result = evaluate(study, store, here);
+  ASSERT_EQ(result.scenes.size(), 2u);
+  EXPECT_TRUE(result.scenes[0].stand_in);
+  EXPECT_FALSE(result.scenes[1].stand_in);
+  ASSERT_EQ(result.tables[0].cells.size(), 8u);
+  for (const Cell& cell : result.tables[0].cells) EXPECT_GT(cell.estimate.low, 0);
+  EXPECT_EQ(result.claims[0].verdict, Verdict::holds) << result.claims[0].measured;
+  EXPECT_EQ(result.claims[1].verdict, Verdict::holds) << result.claims[1].measured;
+  EXPECT_TRUE(result.claims[1].cells[0].cell.exact);
+  EXPECT_EQ(result.pictures.size(), 2u * 2u);  // of each scene a rendering and a heat map
+  for (const StoredPicture& picture : result.pictures) EXPECT_EQ(picture.png.at(1), 'P');
+
+  const std::vector<StudyResult> stored = evaluate_all(store);
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_EQ(stored[0].study.name, "small");
+  EXPECT_EQ(stored[0].claims[1].measured, result.claims[1].measured);
+}
+
+TEST(RunStudy, Quick_IsKeptApart) {
+  const TemporaryStore folder;
+  Store store = folder.open();
+  const Study quick = parse_study(small_study, "small.toml", true);
+  const std::int64_t here = run_study(quick, store, {});
+  EXPECT_EQ(store.keys("small", here).size(), 0u);
+  EXPECT_EQ(store.keys("small (quick)", here).size(), 3 * 2 * 2 * (1 + 1 + 1 + 1) + 2 * 2 * (2 + 1 + 1));
+}
+
+/// Stops after a number of reports.
+class StopAfter final : public ProgressSink {
+ public:
+  explicit StopAfter(int reports) : left_(reports) {}
+  bool report(double fraction, std::string_view) override {
+    EXPECT_GE(fraction, last_);
+    EXPECT_LE(fraction, 1);
+    last_ = fraction;
+    return left_-- > 0;
+  }
+
+ private:
+  int left_;
+  double last_ = 0;
+};
+
+TEST(RunStudy, StoppedAnywhere_GoesOnWhereItWas) {
+  const Study study = parse_study(small_study, "small.toml");
+  const TemporaryStore folder;
+  Store store = folder.open();
+  int rounds = 0;
+  for (;; ++rounds) {
+    ASSERT_LT(rounds, 100);
+    StopAfter stop(25 * (rounds + 1));
+    try {
+      run_study(study, store, {}, &stop);
+      break;
+    } catch (const Cancelled&) {
+    }
+  }
+  EXPECT_GT(rounds, 1);
+  const std::int64_t here = store.environment_number(this_environment());
+  EXPECT_EQ(store.keys("small", here).size(), all_measurements);
+}
+
+TEST(RunStudy, OnASceneThatIsNowhere_NamesWhatWasTried) {
+  const std::string text =
+      "[[scene]]\nname = \"x\"\nfind = [\"a.ply\", \"b.ply\"]\n[[recipes]]\nrecipe = \"binned > binary\"";
+  const TemporaryStore folder;
+  Store store = folder.open();
+  try {
+    run_study(parse_study(text, "x.toml"), store, {});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("a.ply, b.ply"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CameraText, ReadsBackExactly) {
+  Camera camera;
+  camera.eye = {0.1f, 1e-7f, 3e8f};
+  Camera other = camera;
+  EXPECT_EQ(camera_json(camera), camera_json(other));
+  other.eye.x = std::nextafter(other.eye.x, 1.0f);
+  EXPECT_NE(camera_json(camera), camera_json(other));
+}
+
+}  // namespace
+}  // namespace boxwood::testing
