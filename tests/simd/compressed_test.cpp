@@ -140,6 +140,8 @@ TEST(Compressed, Bytes_AreAtMostTwentyPerTriangle) {
 TEST(Compressed, LeavesTooLargeForTheirNode_AreRefusedOrNumbered) {
   const Scene scene = test_scene("random");
   const Mesh& mesh = scene.meshes.front();
+  EXPECT_FALSE(fits_eight(test_tree(mesh, 2, 400)));
+  EXPECT_TRUE(fits_eight(test_tree(mesh, 2, 20)));
   EXPECT_THROW(encode(8, test_tree(mesh, 2, 400), mesh), UsageError);
   EXPECT_NO_THROW(encode(16, test_tree(mesh, 2, 400), mesh));
 }

@@ -15,7 +15,7 @@ namespace boxwood {
 namespace {
 
 struct CompressedOptions {
-  std::uint32_t width = 8;
+  std::uint32_t k = 8;
 };
 
 template <class Node, int N>
@@ -23,28 +23,26 @@ std::shared_ptr<const Layout> make(const Tree& tree, const Mesh& mesh) {
   return std::make_shared<SimdLayout<QuantizedArena>>(encode_quantized<Node>(tree, mesh), compressed_kernels<N>());
 }
 
-/// Instances are few: they take the plain wide nodes.
-std::shared_ptr<const Layout> encode_instances(Tree tree, const Contents& contents, const TraceOptions& trace) {
+/// What compressed nodes cannot hold: instances, which are few, and trees that are too deep or fix the order of
+/// children.
+std::shared_ptr<const Layout> encode_wide_instead(std::uint32_t k, Tree tree, const Contents& contents) {
   const Stage wide = wide_stage();
   std::any options = wide.defaults;
-  set_option(wide.name, wide.options, options, "k=16");
-  return wide.encode(options, std::move(tree), contents, trace);
+  set_option(wide.name, wide.options, options, fmt::format("k={}", k));
+  return wide.encode(options, std::move(tree), contents, TraceOptions{});
 }
 
 std::shared_ptr<const Layout> encode(const CompressedOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
-  if (!contents.mesh) return encode_instances(std::move(tree), contents, trace);
   if (trace != TraceOptions{}) {
     throw UsageError("'compressed' only knows the default traversal; leave 'trace' out or use 'wide'");
   }
-  const std::uint32_t width = options.width <= 8 ? 8 : 16;
-  if (!simd_wide_supports(width, tree, contents, trace)) {
-    throw UsageError(
-        fmt::format("'compressed({})' cannot trace this tree: it is too deep, or its children have a fixed "
-                    "order; use 'wide({})'",
-                    options.width, options.width));
+  const std::uint32_t width = options.k <= 8 ? 8 : 16;
+  if (!simd_wide_supports(width, tree, contents, trace) || !has_quantized_names(tree)) {
+    return encode_wide_instead(options.k, std::move(tree), contents);
   }
-  return width == 8 ? make<QuantizedNode8, 8>(tree, *contents.mesh) : make<QuantizedNode16, 16>(tree, *contents.mesh);
+  if (width == 8 && fits_eight(tree)) return make<QuantizedNode8, 8>(tree, *contents.mesh);
+  return make<QuantizedNode16, 16>(tree, *contents.mesh);
 }
 
 }  // namespace
@@ -54,9 +52,9 @@ Stage compressed_stage() {
       "compressed", "wide nodes of 8-bit boxes over the caller's mesh, which must outlive the structure",
       "Ylitie et al. 2017; Benthin et al. 2018",
       OptionsOf<CompressedOptions>()
-          .integer("width", &CompressedOptions::width, 2, 16, "most children per node; kept in nodes of 8 or 16")
+          .integer("k", &CompressedOptions::k, 2, 16, "most children per node; kept in nodes of 8 or 16")
           .positional(),
-      encode, [](const CompressedOptions& options) { return options.width; });
+      encode, [](const CompressedOptions& options) { return options.k; });
 }
 
 }  // namespace boxwood

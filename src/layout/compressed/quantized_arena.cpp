@@ -128,6 +128,24 @@ float reach_of_box(const Box& box) {
 
 }  // namespace
 
+bool has_quantized_names(const Tree& tree) {
+  constexpr std::size_t most = (std::size_t{1} << 31) - 2 * read_beyond;
+  return tree.references.size() < most && tree.nodes.size() < most;
+}
+
+bool fits_eight(const Tree& tree) {
+  return std::ranges::all_of(tree.nodes, [&](const Tree::Node& node) {
+    if (node.is_leaf()) return true;
+    std::uint32_t before = 0, primitives = 0;
+    for (const Tree::Node& child : std::span(tree.nodes).subspan(node.first, node.count)) {
+      if (!child.is_leaf()) continue;
+      before = primitives;
+      primitives += child.count;
+    }
+    return before < no_child;
+  });
+}
+
 template <class Node>
 QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   QuantizedArena out;

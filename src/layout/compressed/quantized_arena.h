@@ -20,8 +20,14 @@ struct QuantizedArena {
   std::size_t bytes() const { return nodes.bytes() + primitives.capacity() * sizeof(std::uint32_t); }
 };
 
-/// Encodes a tree of arity up to 8 or 16, by the node type, over the triangles of `mesh`. Throws UsageError when the
-/// leaves of one node hold more than its bytes can number, which only nodes of eight do. O(n).
+/// Whether names of nodes and of primitives fit 31 bits, of which references use the rest. O(1).
+bool has_quantized_names(const Tree& tree);
+
+/// Whether QuantizedNode8 can number what lies before the last leaf of every node. O(nodes).
+bool fits_eight(const Tree& tree);
+
+/// Encodes a tree of arity up to 8 or 16, by the node type, over the triangles of `mesh`. Throws UsageError when
+/// nodes of eight are asked for and fits_eight() does not hold. O(n).
 template <class Node>
 QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh);
 
