@@ -1,11 +1,14 @@
 // Traces the same rays with our kernels and with Embree 3, in turn, in one process and one thread. Prints million rays
 // per second of the thread's CPU time and the median of the paired ratios over Embree's best call of that column.
+// TRACE_BENCH_CAMERAS in the environment names a camera file; with TRACE_BENCH_AVX2 AVX-512 is left alone.
 //   trace_bench SCENE ["RECIPE; RECIPE; …"] [repeats] [kinds]
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
+#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <ranges>
@@ -17,6 +20,7 @@
 #include "boxwood/scene.h"
 #include "boxwood/structure.h"
 #include "measure/clock.h"
+#include "scene/cameras.h"
 #include "structure/mesh_geometry.h"
 
 namespace boxwood {
@@ -252,10 +256,12 @@ void print_counts(std::size_t number, const Structure& structure, const RaySet& 
 }
 
 int run(int argc, char** argv) {
+  if (std::getenv("TRACE_BENCH_AVX2")) hwy::DisableTargets(HWY_AVX3 | (HWY_AVX3 - 1));
   const std::string file = argc > 1 ? argv[1] : "generate:random";
   const std::string recipes = argc > 2 ? argv[2] : "default";
   const int repeats = argc > 3 ? std::stoi(argv[3]) : 5;
-  const Scene scene = flatten(load(file));
+  Scene scene = flatten(load(file));
+  if (const char* cameras = std::getenv("TRACE_BENCH_CAMERAS")) scene.cameras = read_cameras(cameras);
   const Mesh& mesh = scene.meshes.front();
   std::vector<Structure> structures;
   for (const auto part : std::views::split(recipes, ';')) {

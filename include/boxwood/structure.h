@@ -64,10 +64,10 @@ class Structure {
   Recipe recipe_;
 };
 
-/// Builds the structure that `recipe` describes over `scene`. Deterministic: same input, same structure, for any number
-/// of threads. Unusable triangles are left out and counted in report(). The scene may be freed afterwards.
-/// Throws UsageError when stages do not fit each other or need a use that is not told, Error when the scene cannot be
-/// built.
+/// Builds what `recipe` describes over `scene`. Deterministic: same input, same structure, for any number of threads.
+/// Unusable triangles are left out and counted in report(). The scene may be freed afterwards; only the leaves of the
+/// layout `compressed` read its meshes, which must outlive the structure. Throws UsageError when stages do not fit each
+/// other or need a use that is not told, Error when the scene cannot be built.
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options = {});
 Structure build(const Scene& scene, std::string_view recipe = "default", const BuildOptions& options = {});
 

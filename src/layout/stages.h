@@ -5,6 +5,7 @@ namespace boxwood {
 
 Stage binary_stage();
 Stage wide_stage();
+Stage compressed_stage();
 Stage slab_stage();
 Stage binary_split_stage();
 Stage wide_slab_stage();

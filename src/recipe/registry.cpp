@@ -43,6 +43,7 @@ const std::vector<Stage>& stages() {
       order_stage(),
       binary_stage(),
       wide_stage(),
+      compressed_stage(),
       slab_stage(),
       binary_split_stage(),
       wide_slab_stage(),
@@ -66,6 +67,8 @@ const std::vector<Preset>& presets() {
       {"default", "ploc(block=4, run=4) > reinsert > optimal-collapse(8) > wide(8)",
        "a good tree, small in memory, quick to build"},
       {"best", "spatial > reinsert > optimal-collapse(8) > wide(8)", "fewest tests per ray; slow to build"},
+      {"compact", "ploc(block=4, run=4) > reinsert > optimal-collapse(8, leaf=8, block=8) > compressed(8)",
+       "least memory, slower rays; the scene must outlive the structure"},
   };
   return all;
 }

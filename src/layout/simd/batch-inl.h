@@ -21,14 +21,9 @@ namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
 /// What node and leaf steps read next, for trees that are not in the cache.
+template <class Store>
 HWY_INLINE void prefetch_next(const WideView& view, const std::uint32_t* next, std::uint32_t size) {
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const std::byte* place = view.base + std::size_t{next[i]} * 16;
-    __builtin_prefetch(place);
-    __builtin_prefetch(place + 64);
-    __builtin_prefetch(place + 128);
-    __builtin_prefetch(place + 192);
-  }
+  for (std::uint32_t i = 0; i < size; ++i) Store::prefetch(view, next[i]);
 }
 
 /// What a group of rays in flight needs next, and what its last pass found out.
@@ -68,9 +63,11 @@ HWY_INLINE void take_turns(Lists (&groups)[ray_groups], Begin begin, End end) {
   }
 }
 
-/// Closest hits of a whole batch. Steps: how rays pass nodes. L: triangles per leaf block.
-template <class Steps, int L, bool Prefetch>
+/// Closest hits of a whole batch. Steps: how rays pass nodes.
+template <class Steps, bool Prefetch>
 class ClosestBatch {
+  using Store = typename Steps::Store;
+
  public:
   ClosestBatch(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits, std::byte* memory)
       : view_(view), rays_(rays), hits_(hits), slots_(memory, view.stack) {}
@@ -89,10 +86,10 @@ class ClosestBatch {
       const PreparedRay ray = prepare(rays_[next_ray_], view_.reach);
       // Keys order by their bits, which negative distances do not do.
       if (HWY_UNLIKELY(!ray.valid || ray.t_near < 0)) {
-        hits_[next_ray_] = closest_hit<Steps::width, L>(view_, ray, CountNothing{});
+        hits_[next_ray_] = closest_hit<Store>(view_, ray, CountNothing{});
         continue;
       }
-      start<Steps::width>(slots_, slots_.at(offset), view_, ray, next_ray_++);
+      start<Store::children>(slots_, slots_.at(offset), view_, ray, next_ray_++);
       lists.nodes.add(offset);
       return;
     }
@@ -102,16 +99,16 @@ class ClosestBatch {
     switch (lists.last) {
       case Lists::Pass::nodes:
         Steps::closest_pass(slots_, view_, lists.nodes, lists.next);
-        if constexpr (Prefetch) prefetch_next(view_, lists.next, lists.nodes.size);
+        if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, lists.nodes.size);
         break;
       case Lists::Pass::leaves:
-        LeafSteps<L>::closest_pass(slots_, view_, lists.leaves);
+        LeafSteps<Store>::closest_pass(slots_, view_, lists.leaves);
         break;
       case Lists::Pass::pops:
         for (std::uint32_t i = 0; i < lists.pops.size; ++i) {
           lists.next[i] = pop_step(slots_.at(lists.pops.offsets[i]));
         }
-        if constexpr (Prefetch) prefetch_next(view_, lists.next, lists.pops.size);
+        if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, lists.pops.size);
         break;
       case Lists::Pass::none:
         break;
@@ -165,8 +162,10 @@ class ClosestBatch {
 };
 
 /// Any hits of a whole batch: no order, no distances; the top of the stack is always what comes next.
-template <class Steps, int L, bool Prefetch>
+template <class Steps, bool Prefetch>
 class AnyBatch {
+  using Store = typename Steps::Store;
+
  public:
   AnyBatch(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked, std::byte* memory)
       : view_(view), rays_(rays), blocked_(blocked), slots_(memory, view.stack) {}
@@ -184,7 +183,7 @@ class AnyBatch {
       const PreparedRay ray = prepare(rays_[next_ray_], view_.reach);
       blocked_[next_ray_] = 0;
       if (HWY_UNLIKELY(!ray.valid)) continue;
-      start<Steps::width>(slots_, slots_.at(offset), view_, ray, next_ray_++);
+      start<Store::children>(slots_, slots_.at(offset), view_, ray, next_ray_++);
       lists.nodes.add(offset);
       return;
     }
@@ -195,14 +194,14 @@ class AnyBatch {
     if (at_nodes) {
       Steps::any_pass(slots_, view_, lists.nodes, lists.next);
     } else {
-      LeafSteps<L>::any_pass(slots_, view_, lists.leaves, [&](std::uint32_t i, Slot& slot, bool found) HWY_ATTR {
+      LeafSteps<Store>::any_pass(slots_, view_, lists.leaves, [&](std::uint32_t i, Slot& slot, bool found) HWY_ATTR {
         blocked_[slot.index] = found ? 1 : 0;
         slot.top -= found ? 0 : 1;
         slot.next = slots_.references(slot)[slot.top];
         lists.next[i] = found ? wide_finished : slot.next;
       });
     }
-    if constexpr (Prefetch) prefetch_next(view_, lists.next, at_nodes ? lists.nodes.size : lists.leaves.size);
+    if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, at_nodes ? lists.nodes.size : lists.leaves.size);
   }
 
   void end(Lists& lists) {

@@ -15,42 +15,42 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// All blocks from `block` on.
-template <int L>
-HWY_INLINE void closest_in_blocks(const LeafBlock<L>* block, Slot& slot) {
+/// All blocks of the ray's leaf from number `first` on.
+template <class Store>
+HWY_INLINE void closest_in_blocks(const WideView& view, std::size_t first, Slot& slot) {
+  typename Store::BlockBuffer buffer;
   bool more = true;
-  for (; more; ++block) {
-    if (closest_in_block(*block, slot.leaf, slot.t_near, slot.t_limit, slot.best)) {
-      slot.t_limit = slot.best.t + 0.0f;
-    }
-    more = (block->primitives[0] & more_blocks) != 0;
+  for (std::size_t i = first; more; ++i) {
+    const auto& block = Store::block(view, slot.next, i, buffer);
+    if (closest_in_block(block, slot.leaf, slot.t_near, slot.t_limit, slot.best)) slot.t_limit = slot.best.t + 0.0f;
+    more = (block.primitives[0] & more_blocks) != 0;
   }
 }
 
-template <int L>
-HWY_INLINE bool any_in_blocks(const LeafBlock<L>* block, const Slot& slot) {
+template <class Store>
+HWY_INLINE bool any_in_blocks(const WideView& view, std::size_t first, const Slot& slot) {
+  typename Store::BlockBuffer buffer;
   bool more = true;
-  for (; more; ++block) {
-    if (any_in_block(*block, slot.leaf, slot.t_near, slot.t_limit)) return true;
-    more = (block->primitives[0] & more_blocks) != 0;
+  for (std::size_t i = first; more; ++i) {
+    const auto& block = Store::block(view, slot.next, i, buffer);
+    if (any_in_block(block, slot.leaf, slot.t_near, slot.t_limit)) return true;
+    more = (block.primitives[0] & more_blocks) != 0;
   }
   return false;
 }
 
-template <int L>
+/// L: triangles per block.
+template <class Store, int L = Store::triangles>
 struct LeafSteps {
   static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, const SlotList& list) {
-    for (std::uint32_t i = 0; i < list.size; ++i) {
-      Slot& slot = slots.at(list.offsets[i]);
-      closest_in_blocks(blocks_at<L>(view, slot.next), slot);
-    }
+    for (std::uint32_t i = 0; i < list.size; ++i) closest_in_blocks<Store>(view, 0, slots.at(list.offsets[i]));
   }
-  /// Calls found(slot) or missed(slot) for each ray.
+  /// Calls decide(number in the list, slot, whether it is blocked) for each ray.
   template <class Decide>
   static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, const SlotList& list, Decide decide) {
     for (std::uint32_t i = 0; i < list.size; ++i) {
       Slot& slot = slots.at(list.offsets[i]);
-      decide(i, slot, any_in_blocks(blocks_at<L>(view, slot.next), slot));
+      decide(i, slot, any_in_blocks<Store>(view, 0, slot));
     }
   }
 };
@@ -111,11 +111,27 @@ struct PassHits {
   }
 };
 
-template <>
-struct LeafSteps<8> {
-  static HWY_INLINE void test(const WideView& view, const Slot& a, const Slot& b, std::uint32_t ray, PassHits& out) {
+/// The first blocks of the leaves of a list of rays. An odd last ray is its own partner.
+template <class Store>
+struct PassBlocks {
+  const LeafBlock<8>* blocks[most_in_flight + 1];
+  typename Store::BlockBuffer buffers[most_in_flight + 1];
+  std::uint32_t more = 0;
+
+  HWY_INLINE PassBlocks(const Slots& slots, const WideView& view, SlotList& list) {
+    list.offsets[list.size] = list.offsets[list.size - 1];
+    for (std::uint32_t i = 0; i < list.size; ++i) {
+      blocks[i] = &Store::block(view, slots.at(list.offsets[i]).next, 0, buffers[i]);
+      more |= blocks[i]->primitives[0];
+    }
+    blocks[list.size] = blocks[list.size - 1];
+  }
+};
+
+template <class Store>
+struct LeafSteps<Store, 8> {
+  static HWY_INLINE void test(const BlockPair& pair, const Slot& a, const Slot& b, std::uint32_t ray, PassHits& out) {
     const BlockPair::D d;
-    const BlockPair pair{*blocks_at<8>(view, a.next), *blocks_at<8>(view, b.next)};
     const TriangleHits<BlockPair::D> hits = pair.hit(a, b);
     PairHits& kept = out.pairs[ray / 2];
     hn::Store(hits.t, d, kept.t);
@@ -141,49 +157,41 @@ struct LeafSteps<8> {
     }
   }
 
-  /// Bit 0: the first ray is blocked; bit 1: the second.
-  static HWY_INLINE std::uint32_t any_pair(const WideView& view, const Slot& a, const Slot& b) {
-    const BlockPair pair{*blocks_at<8>(view, a.next), *blocks_at<8>(view, b.next)};
-    const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
-    std::uint32_t found = ((bits & 0xff) != 0 ? 1u : 0) | ((bits & 0xff00) != 0 ? 2u : 0);
-    const std::uint32_t more = pair.a.primitives[0] | pair.b.primitives[0];
-    if (HWY_UNLIKELY((more & more_blocks) != 0)) {
-      if ((pair.a.primitives[0] & more_blocks) != 0 && any_in_blocks(&pair.a + 1, a)) found |= 1;
-      if ((pair.b.primitives[0] & more_blocks) != 0 && any_in_blocks(&pair.b + 1, b)) found |= 2;
-    }
-    return found;
-  }
   static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list) {
+    const PassBlocks<Store> leaves(slots, view, list);
     PassHits hits;
-    std::uint32_t more = 0;
-    list.offsets[list.size] = list.offsets[list.size - 1];  // an odd last ray is its own partner
     for (std::uint32_t i = 0; i < list.size; i += 2) {
-      const Slot& a = slots.at(list.offsets[i]);
-      const Slot& b = slots.at(list.offsets[i + 1]);
-      test(view, a, b, i, hits);
-      more |= blocks_at<8>(view, a.next)->primitives[0] | blocks_at<8>(view, b.next)->primitives[0];
+      const BlockPair pair{*leaves.blocks[i], *leaves.blocks[i + 1]};
+      test(pair, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), i, hits);
     }
     for (std::uint32_t i = 0; i < hits.size; ++i) {
       const std::uint32_t ray = hits.found[i];
-      Slot& slot = slots.at(list.offsets[ray]);
-      keep_best(*blocks_at<8>(view, slot.next), hits.pairs[ray / 2], (ray & 1) * 8, hits.lanes[i], slot);
+      keep_best(*leaves.blocks[ray], hits.pairs[ray / 2], (ray & 1) * 8, hits.lanes[i], slots.at(list.offsets[ray]));
     }
-    if (HWY_LIKELY((more & more_blocks) == 0)) return;
+    if (HWY_LIKELY((leaves.more & more_blocks) == 0)) return;
     for (std::uint32_t i = 0; i < list.size; ++i) {
-      Slot& slot = slots.at(list.offsets[i]);
-      const LeafBlock<8>* block = blocks_at<8>(view, slot.next);
-      if ((block->primitives[0] & more_blocks) != 0) closest_in_blocks(block + 1, slot);
+      if ((leaves.blocks[i]->primitives[0] & more_blocks) == 0) continue;
+      closest_in_blocks<Store>(view, 1, slots.at(list.offsets[i]));
     }
   }
   template <class Decide>
   static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, Decide decide) {
-    list.offsets[list.size] = list.offsets[list.size - 1];
+    const PassBlocks<Store> leaves(slots, view, list);
+    const auto more_found = [&](std::uint32_t i, const Slot& slot) HWY_ATTR {
+      return (leaves.blocks[i]->primitives[0] & more_blocks) != 0 && any_in_blocks<Store>(view, 1, slot);
+    };
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       Slot& a = slots.at(list.offsets[i]);
       Slot& b = slots.at(list.offsets[i + 1]);
-      const std::uint32_t found = any_pair(view, a, b);
-      decide(i, a, (found & 1) != 0);
-      if (i + 1 < list.size) decide(i + 1, b, (found & 2) != 0);
+      const BlockPair pair{*leaves.blocks[i], *leaves.blocks[i + 1]};
+      const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
+      bool found_a = (bits & 0xff) != 0, found_b = (bits & 0xff00) != 0;
+      if (HWY_UNLIKELY((leaves.more & more_blocks) != 0)) {
+        found_a = found_a || more_found(i, a);
+        found_b = found_b || more_found(i + 1, b);
+      }
+      decide(i, a, found_a);
+      if (i + 1 < list.size) decide(i + 1, b, found_b);
     }
   }
 };

@@ -11,6 +11,7 @@
 
 #include "boxwood/counters.h"
 #include "layout/simd/boxes-inl.h"
+#include "layout/simd/store-inl.h"
 #include "layout/simd/triangles-inl.h"
 #include "layout/simd/wide_arena.h"
 
@@ -50,23 +51,6 @@ struct CountSteps {
     }
   }
 };
-
-template <int N>
-HWY_INLINE const WideNode<N>& node_at(const WideView& view, WideReference reference) {
-  return *reinterpret_cast<const WideNode<N>*>(view.base + wide_offset(reference));
-}
-
-template <int L>
-HWY_INLINE const LeafBlock<L>* blocks_at(const WideView& view, WideReference reference) {
-  return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference));
-}
-
-template <int N>
-HWY_INLINE void prefetch_child(const WideView& view, WideReference reference) {
-  if (!view.out_of_cache) return;
-  const std::byte* place = view.base + wide_offset(reference);
-  for (std::size_t line = 0; line < sizeof(WideNode<N>); line += 64) __builtin_prefetch(place + line);
-}
 
 /// What a traversal remembers for later.
 struct Postponed {
@@ -151,18 +135,18 @@ HWY_INLINE Postponed* push_sorted(const WideNode<N>& node, std::uint32_t bits, c
 
 /// The next node or leaf for the ray after meeting `bits` of this node's children; `current` only changes when bits is
 /// not 0. Cases by how often they happen: one, two, more.
-template <int N>
+template <class Store, int N>
 HWY_INLINE Postponed* descend(const WideView& view, const WideNode<N>& node, std::uint32_t bits, const float* entry,
                               Postponed* top, WideReference& current) {
   const int first = std::countr_zero(bits);
   bits &= bits - 1;
   current = node.children[first];
-  prefetch_child<N>(view, current);
+  if (view.out_of_cache) Store::prefetch(view, current);
   if (HWY_LIKELY(bits == 0)) return top;
   const int second = std::countr_zero(bits);
   bits &= bits - 1;
   const WideReference other = node.children[second];
-  prefetch_child<N>(view, other);
+  if (view.out_of_cache) Store::prefetch(view, other);
   if (HWY_LIKELY(bits == 0)) {
     const bool swap = entry[second] < entry[first];
     *top = {swap ? entry[first] : entry[second], swap ? current : other};
@@ -174,9 +158,12 @@ HWY_INLINE Postponed* descend(const WideView& view, const WideNode<N>& node, std
   return top;
 }
 
-template <int N, int L, class Count>
+template <class Store, class Count>
 HWY_INLINE Hit closest_hit(const WideView& view, const PreparedRay& ray, Count count) {
+  constexpr int N = Store::children;
   using D = Floats<N>;
+  typename Store::NodeBuffer node_buffer;
+  typename Store::BlockBuffer block_buffer;
   Hit best;
   if (!ray.valid) return best;
   const SlabRay<D> slabs = broadcast_slabs(D(), ray);
@@ -188,21 +175,21 @@ HWY_INLINE Hit closest_hit(const WideView& view, const PreparedRay& ray, Count c
   alignas(64) float entry[N];
   while (true) {
     while (!is_leaf(current)) {
-      const WideNode<N>& node = node_at<N>(view, current);
+      const WideNode<N>& node = Store::node(view, current, node_buffer);
       const std::uint32_t bits = hit_children<N>(node, slabs, t_limit, entry);
       count.node(node, bits);
       current = wide_finished;
       if (bits == 0) break;
-      top = descend(view, node, bits, entry, top, current);
+      top = descend<Store>(view, node, bits, entry, top, current);
     }
     if (current != wide_finished) {
       count.leaf();
-      const LeafBlock<L>* block = blocks_at<L>(view, current);
       bool more = true;
-      for (; more; ++block) {
-        count.block(*block);
-        if (closest_in_block(*block, leaf_ray, ray.t_near, t_limit, best)) t_limit = best.t;
-        more = (block->primitives[0] & more_blocks) != 0;
+      for (std::size_t i = 0; more; ++i) {
+        const auto& block = Store::block(view, current, i, block_buffer);
+        count.block(block);
+        if (closest_in_block(block, leaf_ray, ray.t_near, t_limit, best)) t_limit = best.t;
+        more = (block.primitives[0] & more_blocks) != 0;
       }
     }
     do {
@@ -213,9 +200,12 @@ HWY_INLINE Hit closest_hit(const WideView& view, const PreparedRay& ray, Count c
   }
 }
 
-template <int N, int L, class Count>
+template <class Store, class Count>
 HWY_INLINE bool any_hit(const WideView& view, const PreparedRay& ray, Count count) {
+  constexpr int N = Store::children;
   using D = Floats<N>;
+  typename Store::NodeBuffer node_buffer;
+  typename Store::BlockBuffer block_buffer;
   if (!ray.valid) return false;
   const SlabRay<D> slabs = broadcast_slabs(D(), ray);
   const TriangleRay leaf_ray = triangle_ray(ray);
@@ -226,15 +216,15 @@ HWY_INLINE bool any_hit(const WideView& view, const PreparedRay& ray, Count coun
   while (true) {
     if (is_leaf(current)) {
       count.leaf();
-      const LeafBlock<L>* block = blocks_at<L>(view, current);
       bool more = true;
-      for (; more; ++block) {
-        count.block(*block);
-        if (any_in_block(*block, leaf_ray, ray.t_near, ray.t_far)) return true;
-        more = (block->primitives[0] & more_blocks) != 0;
+      for (std::size_t i = 0; more; ++i) {
+        const auto& block = Store::block(view, current, i, block_buffer);
+        count.block(block);
+        if (any_in_block(block, leaf_ray, ray.t_near, ray.t_far)) return true;
+        more = (block.primitives[0] & more_blocks) != 0;
       }
     } else {
-      const WideNode<N>& node = node_at<N>(view, current);
+      const WideNode<N>& node = Store::node(view, current, node_buffer);
       std::uint32_t bits = hit_children<N>(node, slabs, ray.t_far, entry);
       count.node(node, bits);
       for (; bits != 0; bits &= bits - 1) *top++ = node.children[std::countr_zero(bits)];

@@ -1,5 +1,5 @@
-// Steps of rays in flight through nodes of sixteen children, for 512-bit registers: a register holds one ray's box
-// tests, or the order of two rays' children. Compiled for instruction sets that have such registers.
+// Steps of rays in flight through nodes of sixteen children. With 512-bit registers one holds a ray's box tests, or the
+// order of two rays' children; without, a node is two halves. Compiled once per instruction set that has eight lanes.
 #if defined(BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
 #undef BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
@@ -9,6 +9,7 @@
 
 #include "layout/simd/slots-inl.h"
 #include "layout/simd/sort8-inl.h"
+#include "layout/simd/steps8-inl.h"
 #include "layout/simd/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,25 +17,23 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET <= HWY_AVX3
 
+template <class StoreType>
 struct Steps16 {
-  static constexpr int width = 16;
+  using Store = StoreType;
+  using Node = WideNode<16>;
   using Floats16 = hn::FixedTag<float, 16>;
   using Ints16 = hn::FixedTag<std::int32_t, 16>;
   using Words16 = hn::FixedTag<std::uint32_t, 16>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
-  static constexpr std::size_t children_row = 6 * 64;
 
   struct NodeHits {
     hn::Vec<Floats16> entry;
     hn::Mask<Floats16> hit;
   };
 
-  static HWY_INLINE const std::byte* node_of(const WideView& view, const Slot& slot) {
-    return view.base + std::size_t{slot.next} * 16;
-  }
-
-  static HWY_INLINE NodeHits hit_node(const std::byte* node, const Slot& slot) {
+  static HWY_INLINE NodeHits hit_node(const Node& place, const Slot& slot) {
     const Floats16 d;
+    const auto* node = reinterpret_cast<const std::byte*>(&place);
     const auto plane = [&](std::uint32_t row, int axis, float offset) {
       return hn::MulSub(hn::Load(d, reinterpret_cast<const float*>(node + row)), hn::Set(d, slot.inverse[axis]),
                         hn::Set(d, offset));
@@ -55,7 +54,7 @@ struct Steps16 {
     hn::Vec<Ints16> keys;
     std::uint32_t count;
   };
-  static HWY_INLINE Met meet(const std::byte* node, const Slot& slot) {
+  static HWY_INLINE Met meet(const Node& node, const Slot& slot) {
     const Ints16 d;
     const NodeHits hits = hit_node(node, slot);
     const auto keys = hn::Add(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 16));
@@ -63,9 +62,9 @@ struct Steps16 {
             static_cast<std::uint32_t>(std::popcount(bits_of(Floats16(), hits.hit)))};
   }
 
-  static HWY_INLINE hn::Vec<Words16> children_of(const std::byte* node, hn::Vec<Ints16> keys) {
+  static HWY_INLINE hn::Vec<Words16> children_of(const Node& node, hn::Vec<Ints16> keys) {
     const Words16 d;
-    const auto children = hn::Load(d, reinterpret_cast<const std::uint32_t*>(node + children_row));
+    const auto children = hn::Load(d, node.children);
     return hn::TableLookupLanes(children, hn::IndicesFromVec(d, hn::And(hn::BitCast(d, keys), hn::Set(d, 15))));
   }
 
@@ -78,8 +77,8 @@ struct Steps16 {
   }
 
   /// One ray that met more than eight children: rare, so that branches cost little.
-  static HWY_NOINLINE void push_many(const Slots& slots, const std::byte* node, hn::Vec<Ints16> met,
-                                     std::uint32_t count, Slot& slot) {
+  static HWY_NOINLINE void push_many(const Slots& slots, const Node& node, hn::Vec<Ints16> met, std::uint32_t count,
+                                     Slot& slot) {
     const Ints16 d;
     alignas(64) std::int32_t keys[16];
     alignas(64) WideReference children[16];
@@ -96,8 +95,9 @@ struct Steps16 {
     const Ints16 d;
     const Ints8 half;
     const hn::Half<Words16> half_words;
-    const std::byte* node_a = node_of(view, a);
-    const std::byte* node_b = node_of(view, b);
+    typename Store::NodeBuffer buffer_a, buffer_b;
+    const Node& node_a = Store::node(view, a.next, buffer_a);
+    const Node& node_b = Store::node(view, b.next, buffer_b);
     const Met met_a = meet(node_a, a), met_b = meet(node_b, b);
     if (HWY_UNLIKELY(std::max(met_a.count, met_b.count) > 8)) {
       push_many(slots, node_a, met_a.keys, met_a.count, a);
@@ -122,9 +122,10 @@ struct Steps16 {
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
   static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
     const Words16 d;
-    const std::byte* node = node_of(view, slot);
+    typename Store::NodeBuffer buffer;
+    const Node& node = Store::node(view, slot.next, buffer);
     const NodeHits hits = hit_node(node, slot);
-    const auto children = hn::Load(d, reinterpret_cast<const std::uint32_t*>(node + children_row));
+    const auto children = hn::Load(d, node.children);
     WideReference* references = slots.references(slot);
     slot.top += compress_store<Words16>(children, hn::RebindMask(d, hits.hit), references + slot.top) - 1;
     return slot.next = references[slot.top];
@@ -136,6 +137,54 @@ struct Steps16 {
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       closest_pair(slots, view, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), next + i);
     }
+  }
+  static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
+    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));
+  }
+};
+
+#elif HWY_MAX_BYTES >= 32
+
+template <class StoreType>
+struct Steps16 {
+  using Store = StoreType;
+
+  static HWY_INLINE std::int32_t key_limit(float t_limit) { return EightChildren::key_limit(t_limit); }
+
+  /// Each half in order, and the nearest of both on top.
+  static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
+    typename Store::NodeBuffer buffer;
+    const WideNode<16>& node = Store::node(view, slot.next, buffer);
+    const auto* place = reinterpret_cast<const std::byte*>(&node);
+    const auto low = EightChildren::hit_node<64>(place, slot), high = EightChildren::hit_node<64>(place + 32, slot);
+    std::int32_t* keys = slots.keys(slot) + slot.top;
+    WideReference* references = slots.references(slot) + slot.top;
+    const std::uint32_t first = EightChildren::push(low, node.children, keys, references);
+    const std::uint32_t second = EightChildren::push(high, node.children + 8, keys + first, references + first);
+    // The last of the first half and the last of all change places when the former is nearer. Where there is none, both
+    // are the same.
+    const int last = static_cast<int>(first + second) - 1, end_of_first = static_cast<int>(first) - 1;
+    const bool swap = (first != 0) & (second != 0) & (keys[end_of_first] < keys[last]);
+    const int other = swap ? end_of_first : last;
+    std::swap(keys[other], keys[last]);
+    std::swap(references[other], references[last]);
+    return EightChildren::take(slots.references(slot), first + second, slot);
+  }
+
+  static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
+    const Words8 d;
+    typename Store::NodeBuffer buffer;
+    const WideNode<16>& node = Store::node(view, slot.next, buffer);
+    const auto* place = reinterpret_cast<const std::byte*>(&node);
+    const auto low = EightChildren::hit_node<64>(place, slot), high = EightChildren::hit_node<64>(place + 32, slot);
+    WideReference* references = slots.references(slot);
+    slot.top += compress_store(hn::Load(d, node.children), hn::RebindMask(d, low.hit), references + slot.top);
+    slot.top += compress_store(hn::Load(d, node.children + 8), hn::RebindMask(d, high.hit), references + slot.top) - 1;
+    return slot.next = references[slot.top];
+  }
+
+  static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
+    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = closest(slots, view, slots.at(list.offsets[i]));
   }
   static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
     for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));

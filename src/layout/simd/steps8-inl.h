@@ -8,6 +8,7 @@
 
 #include "layout/simd/slots-inl.h"
 #include "layout/simd/sort8-inl.h"
+#include "layout/simd/store-inl.h"
 #include "layout/simd/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,8 +16,8 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-struct Steps8 {
-  static constexpr int width = 8;
+/// What one register does: eight children of a node.
+struct EightChildren {
   using Floats8 = hn::FixedTag<float, 8>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
 
@@ -25,6 +26,8 @@ struct Steps8 {
     hn::Mask<Floats8> hit;
   };
 
+  /// Eight children; the planes of one kind lie `Row` bytes apart.
+  template <std::uint32_t Row = 32>
   static HWY_INLINE NodeHits hit_node(const std::byte* node, const Slot& slot) {
     const Floats8 d;
     const auto plane = [&](std::uint32_t row, int axis, float offset) {
@@ -34,45 +37,64 @@ struct Steps8 {
     const std::uint32_t x = slot.near_row[0], y = slot.near_row[1], z = slot.near_row[2];
     const auto entry = hn::Max(hn::Max(plane(x, 0, slot.near_offset[0]), plane(y, 1, slot.near_offset[1])),
                                hn::Max(plane(z, 2, slot.near_offset[2]), hn::Set(d, slot.t_near)));
-    const auto exit = hn::Min(hn::Min(plane(x ^ 32, 0, slot.far_offset[0]), plane(y ^ 32, 1, slot.far_offset[1])),
-                              hn::Min(plane(z ^ 32, 2, slot.far_offset[2]), hn::Set(d, slot.t_limit)));
+    const auto exit = hn::Min(hn::Min(plane(x ^ Row, 0, slot.far_offset[0]), plane(y ^ Row, 1, slot.far_offset[1])),
+                              hn::Min(plane(z ^ Row, 2, slot.far_offset[2]), hn::Set(d, slot.t_limit)));
     return {entry, hn::Le(entry, exit)};
   }
 
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return std::bit_cast<std::int32_t>(t_limit) | 7; }
 
-  /// Pushes all children met, nearest on top, and takes the top; nothing when none was met. One step of some 80
-  /// instructions: cut into three shorter passes it was a tenth slower.
-  static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
-    const Floats8 d;
+  /// Stores eight children from the top of the stack on, those met first, the nearest of them last. Returns how many
+  /// were met.
+  static HWY_INLINE std::uint32_t push(const NodeHits& hits, const WideReference* children_met, std::int32_t* keys,
+                                       WideReference* references) {
     const Ints8 di;
     const Words8 dw;
-    const std::byte* node = view.base + std::size_t{slot.next} * 16;
-    const NodeHits hits = hit_node(node, slot);
     // Missed children become the least of all keys: they end behind the others and are never read.
     const auto key = hn::Or(hn::And(hn::BitCast(di, hits.entry), hn::Set(di, ~7)), hn::Iota(di, 0));
     const auto miss = hn::Set(di, std::numeric_limits<std::int32_t>::min());
     const auto sorted = sort8_descending(di, hn::IfThenElse(hn::RebindMask(di, hits.hit), key, miss));
-    const auto children = hn::Load(dw, reinterpret_cast<const std::uint32_t*>(node + 6 * 32));
+    const auto children = hn::Load(dw, children_met);
     const auto lanes = hn::IndicesFromVec(dw, hn::BitCast(dw, hn::And(sorted, hn::Set(di, 7))));
-    const std::uint32_t top = slot.top;
-    WideReference* references = slots.references(slot);
-    hn::StoreU(sorted, di, slots.keys(slot) + top);
-    hn::StoreU(hn::TableLookupLanes(children, lanes), dw, references + top);
-    const std::uint32_t bits = bits_of(d, hits.hit);
-    const std::uint32_t some = (bits + 0xff) >> 8;  // 1 when any was met; arithmetic, lest the compiler make a branch
-    slot.top = top + static_cast<std::uint32_t>(std::popcount(bits)) - some;
+    hn::StoreU(sorted, di, keys);
+    hn::StoreU(hn::TableLookupLanes(children, lanes), dw, references);
+    return static_cast<std::uint32_t>(std::popcount(bits_of(Floats8(), hits.hit)));
+  }
+
+  /// Takes the top after `count` children were pushed; nothing when none was.
+  static HWY_INLINE WideReference take(const WideReference* references, std::uint32_t count, Slot& slot) {
+    const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
+    slot.top += count - some;
     return slot.next = references[slot.top] & (0u - some);
+  }
+};
+
+template <class StoreType>
+struct Steps8 {
+  using Store = StoreType;
+
+  static HWY_INLINE std::int32_t key_limit(float t_limit) { return EightChildren::key_limit(t_limit); }
+
+  /// Pushes all children met, nearest on top, and takes the top; nothing when none was met. One step of some 80
+  /// instructions: cut into three shorter passes it was a tenth slower.
+  static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
+    typename Store::NodeBuffer buffer;
+    const WideNode<8>& node = Store::node(view, slot.next, buffer);
+    WideReference* references = slots.references(slot);
+    const auto hits = EightChildren::hit_node(reinterpret_cast<const std::byte*>(&node), slot);
+    const std::uint32_t count =
+        EightChildren::push(hits, node.children, slots.keys(slot) + slot.top, references + slot.top);
+    return EightChildren::take(references, count, slot);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
   static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
-    const Words8 dw;
-    const std::byte* node = view.base + std::size_t{slot.next} * 16;
-    const NodeHits hits = hit_node(node, slot);
-    const auto children = hn::Load(dw, reinterpret_cast<const std::uint32_t*>(node + 6 * 32));
+    const Words8 d;
+    typename Store::NodeBuffer buffer;
+    const WideNode<8>& node = Store::node(view, slot.next, buffer);
+    const auto hits = EightChildren::hit_node(reinterpret_cast<const std::byte*>(&node), slot);
     WideReference* references = slots.references(slot);
-    slot.top += compress_store(children, hn::RebindMask(dw, hits.hit), references + slot.top) - 1;
+    slot.top += compress_store(hn::Load(d, node.children), hn::RebindMask(d, hits.hit), references + slot.top) - 1;
     return slot.next = references[slot.top];
   }
 

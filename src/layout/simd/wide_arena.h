@@ -17,12 +17,19 @@ struct WideView {
   float reach = 0;            ///< largest absolute coordinate of anything in it
   std::uint32_t stack = 0;    ///< most entries a traversal's stack can hold
   bool out_of_cache = false;  ///< too large for a core's own caches, so that prefetches pay
+
+  // Where leaves only name their triangles: the names, and the caller's mesh.
+  const std::uint32_t* primitives = nullptr;
+  const Vec3* positions = nullptr;
+  const Triangle* triangles = nullptr;
 };
 
 /// An encoded tree and its memory.
 struct WideArena {
   Arena memory;
   WideView view;
+
+  std::size_t bytes() const { return memory.bytes(); }
 };
 
 /// Most stack entries the kernels have room for; a deeper tree is not for them.

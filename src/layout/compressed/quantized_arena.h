@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "boxwood/scene.h"
+#include "layout/compressed/quantized_node.h"
+#include "layout/simd/arena.h"
+#include "layout/simd/wide_arena.h"
+#include "tree/tree.h"
+
+namespace boxwood {
+
+/// A compressed tree: its nodes, and the names of its triangles leaf by leaf. The triangles stay where the mesh has
+/// them: it must outlive this.
+struct QuantizedArena {
+  Arena nodes;
+  std::vector<std::uint32_t> primitives;
+  WideView view;
+
+  std::size_t bytes() const { return nodes.bytes() + primitives.capacity() * sizeof(std::uint32_t); }
+};
+
+/// Whether names of nodes and of primitives fit 31 bits, of which references use the rest. O(1).
+bool has_quantized_names(const Tree& tree);
+
+/// Whether QuantizedNode8 can number what lies before the last leaf of every node. O(nodes).
+bool fits_eight(const Tree& tree);
+
+/// Encodes a tree of arity up to 8 or 16, by the node type, over the triangles of `mesh`. Throws UsageError when
+/// nodes of eight are asked for and fits_eight() does not hold. O(n).
+template <class Node>
+QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh);
+
+}  // namespace boxwood

@@ -1,0 +1,42 @@
+// How kernels get at nodes and leaf blocks. A store says where they are and, when they are packed, unpacks them into a
+// buffer of the caller's. Compiled once per instruction set.
+#if defined(BOXWOOD_LAYOUT_SIMD_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_STORE_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_STORE_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_STORE_INL_H
+#endif
+
+#include "layout/simd/lanes-inl.h"
+#include "layout/simd/wide_arena.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+
+/// Nodes of N children and blocks of L triangles lie in memory as the kernels read them.
+template <int N, int L>
+struct PlainStore {
+  static constexpr int children = N, triangles = L;
+  struct NodeBuffer {};
+  struct BlockBuffer {};
+
+  static HWY_INLINE const WideNode<N>& node(const WideView& view, WideReference reference, NodeBuffer&) {
+    return *reinterpret_cast<const WideNode<N>*>(view.base + std::size_t{reference} * 16);
+  }
+  /// Block `number` of the run that begins at `reference`.
+  static HWY_INLINE const LeafBlock<L>& block(const WideView& view, WideReference reference, std::size_t number,
+                                              BlockBuffer&) {
+    return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
+  }
+  /// Of the first four lines of either.
+  static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
+    const std::byte* place = view.base + std::size_t{reference} * 16;
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(place + 64 * line);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
