@@ -17,7 +17,7 @@ const fs::path sources = BOXWOOD_SOURCE_DIR;
 
 /// A study that takes long enough to be stopped, and not much longer.
 const std::string long_study = R"toml(
-run = { size = [64, 64], repetitions = 60, probes = ["time", "answers"] }
+run = { size = [64, 64], repetitions = 400, probes = ["time", "answers"] }
 [[scene]]
 name = "knot"
 find = ["generate:knot(detail=24)"]
@@ -32,7 +32,7 @@ value = "answers_hash"
 each = ["scene"]
 same = true
 )toml";
-constexpr std::size_t long_values = 2 * (60 + 3);
+constexpr std::size_t long_values = 2 * (400 + 3);
 
 std::size_t values_in(const fs::path& folder) {
   const Outcome outcome = run_boxwood({"results", (folder / "out/store.sqlite").string(), "--csv"});

@@ -3,7 +3,6 @@
 // Bounding Volume Hierarchies".
 #include <fmt/format.h>
 
-#include "boxwood/error.h"
 #include "layout/compressed/compressed_kernels.h"
 #include "layout/compressed/quantized_arena.h"
 #include "layout/simd/simd_layout.h"
@@ -23,23 +22,21 @@ std::shared_ptr<const Layout> make(const Tree& tree, const Mesh& mesh) {
   return std::make_shared<SimdLayout<QuantizedArena>>(encode_quantized<Node>(tree, mesh), compressed_kernels<N>());
 }
 
-/// What compressed nodes cannot hold: instances, which are few, and trees that are too deep or fix the order of
-/// children.
-std::shared_ptr<const Layout> encode_wide_instead(std::uint32_t k, Tree tree, const Contents& contents) {
+/// What compressed nodes cannot hold: instances, which are few, trees that are too deep or fix the order of children,
+/// and walks other than the default one.
+std::shared_ptr<const Layout> encode_wide_instead(std::uint32_t k, Tree tree, const Contents& contents,
+                                                  const TraceOptions& trace) {
   const Stage wide = wide_stage();
   std::any options = wide.defaults;
   set_option(wide.name, wide.options, options, fmt::format("k={}", k));
-  return wide.encode(options, std::move(tree), contents, TraceOptions{});
+  return wide.encode(options, std::move(tree), contents, trace);
 }
 
 std::shared_ptr<const Layout> encode(const CompressedOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
-  if (trace != TraceOptions{}) {
-    throw UsageError("'compressed' only knows the default traversal; leave 'trace' out or use 'wide'");
-  }
   const std::uint32_t width = options.k <= 8 ? 8 : 16;
   if (!simd_wide_supports(width, tree, contents, trace) || !has_quantized_names(tree)) {
-    return encode_wide_instead(options.k, std::move(tree), contents);
+    return encode_wide_instead(options.k, std::move(tree), contents, trace);
   }
   if (width == 8 && fits_eight(tree)) return make<QuantizedNode8, 8>(tree, *contents.mesh);
   return make<QuantizedNode16, 16>(tree, *contents.mesh);
