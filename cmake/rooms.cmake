@@ -71,3 +71,13 @@ function(boxwood_build_facts target)
   add_dependencies(${target} ${target}_facts)
   target_sources(${target} PRIVATE ${facts})
 endfunction()
+
+# boxwood_embed(TARGET NAME FILE): the text of FILE as boxwood::embedded::NAME, compiled into TARGET.
+function(boxwood_embed target name file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+  file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+  string(CONCAT source "namespace boxwood::embedded {\nextern const char* const ${name};\n"
+                "const char* const ${name} = R\"~~~(" "${text}" ")~~~\";\n}  // namespace boxwood::embedded\n")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/embedded_${name}.cpp CONTENT "@source@" @ONLY)
+  target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/embedded_${name}.cpp)
+endfunction()
