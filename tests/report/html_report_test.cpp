@@ -27,13 +27,20 @@ StudyResult made_up() {
   result.study.file_text = "title = \"x\"\n";
   result.environment.cpu = "A <fast> machine";
   result.environment.commit = "abc123";
-  result.scenes = {{.name = "knot", .source = "generate:knot", .triangles = 1234, .stand_in = true}};
+  result.scenes = {{.name = "knot", .source = "generate:knot", .hash = 1, .triangles = 1234, .stand_in = true}};
   const std::vector<Cell> cells = {cell({{"k", "4"}, {"rays", "ao"}}, 12.25, 11.5, 13.75),
                                    cell({{"k", "8"}, {"rays", "ao"}}, 21.5, 20.25, 23.5)};
-  result.tables = {
-      {{.id = "times", .title = "Times", .figure = {.value = "trace_ms"}, .rows = {"k"}, .columns = {"rays"}}, cells}};
+  TableSpec table;
+  table.id = table.title = "times";
+  table.figure.value = "trace_ms";
+  table.rows = {"k"};
+  table.columns = {"rays"};
+  result.tables.push_back({table, cells});
   for (const char* kind : {"line", "bar", "scatter"}) {
-    PlotSpec plot{.id = kind, .title = kind, .kind = kind, .figure = {.value = "trace_ms"}, .x = "k"};
+    PlotSpec plot;
+    plot.id = plot.title = plot.kind = kind;
+    plot.figure.value = "trace_ms";
+    plot.x = "k";
     plot.panels = {"rays"};
     result.plots.push_back({plot, cells});
   }
