@@ -15,6 +15,15 @@ double round_step(double range) {
   return 10 * power;
 }
 
+/// Multiples of a round number, over at least `low` to `high`.
+Axis even_axis(double low, double high) {
+  const double step = round_step(high - low);
+  Axis axis{.low = std::floor(low / step) * step, .high = std::ceil(high / step) * step, .ticks = {}};
+  const auto steps = std::lround((axis.high - axis.low) / step);
+  for (long i = 0; i <= steps; ++i) axis.ticks.push_back(axis.low + static_cast<double>(i) * step);
+  return axis;
+}
+
 Axis logarithmic_axis(double low, double high) {
   Axis axis{.low = low / 1.1, .high = high * 1.1, .logarithmic = true, .ticks = {}};
   const bool few = std::log10(axis.high / axis.low) < 1.5;
@@ -23,6 +32,10 @@ Axis logarithmic_axis(double low, double high) {
       const double tick = factor * power;
       if ((few || factor == 1) && tick >= axis.low && tick <= axis.high) axis.ticks.push_back(tick);
     }
+  }
+  if (axis.ticks.size() < 2) {  // less than a decade: even steps look the same
+    axis = even_axis(axis.low, axis.high);
+    axis.logarithmic = axis.low > 0;
   }
   return axis;
 }
@@ -42,11 +55,7 @@ Axis axis_over(double low, double high, bool logarithmic) {
     low -= room;
     high += room;
   }
-  const double step = round_step(high - low);
-  Axis axis{.low = std::floor(low / step) * step, .high = std::ceil(high / step) * step, .ticks = {}};
-  const auto steps = std::lround((axis.high - axis.low) / step);
-  for (long i = 0; i <= steps; ++i) axis.ticks.push_back(axis.low + static_cast<double>(i) * step);
-  return axis;
+  return even_axis(low, high);
 }
 
 }  // namespace boxwood::html
