@@ -20,7 +20,7 @@ build: deps ## Build the program and the library (Release) into build/
 	@$(CONFIGURE) -B $(RELEASE) -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(RELEASE)
 
-demo: build ## Compare acceleration structures on a scanned mesh and a procedural scene
+demo: build ## Compare acceleration structures on a scanned mesh and a procedural scene; ends with pictures and a report
 	@scripts/demo.sh $(RELEASE)/boxwood out/demo
 
 test: test-release ## The whole test suite

@@ -70,7 +70,10 @@ function compare(scene) {
   const choice = make('div', box, { className: 'choice' });
   const stage = make('div', box, { className: 'stage' });
   const slider = make('input', box, { type: 'range', min: 0, max: 100, step: 0.1, value: 50, ariaLabel: 'Where to cut' });
-  [pictures.length > 2 ? 1 : 0, pictures.length - 1].forEach((first, side) => {
+  // Two recipes at first, where there are two.
+  const maps = pictures.flatMap((picture, i) => (picture.dataset.label.startsWith('heatmap') ? [i] : []));
+  const shown = maps.length > 1 ? [maps[0], maps.at(-1)] : [0, pictures.length - 1];
+  shown.forEach((first, side) => {
     const select = make('select', choice, { ariaLabel: side ? 'Right picture' : 'Left picture' });
     pictures.forEach((picture, i) => make('option', select, { value: i, textContent: picture.dataset.label }));
     const image = make('img', stage);
