@@ -28,6 +28,8 @@ std::optional<double> sample(const std::map<std::string, std::vector<double>>& s
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
+}  // namespace
+
 bool depends_on_rays(const Expression& value) {
   for (const Probe& probe : probes()) {
     if (probe.scope != ProbeScope::rays) continue;
@@ -37,8 +39,6 @@ bool depends_on_rays(const Expression& value) {
   }
   return false;
 }
-
-}  // namespace
 
 bool matches(const Factors& factors, const Where& where) {
   return std::ranges::all_of(where, [&](const auto& wanted) {

@@ -8,7 +8,7 @@
 
 namespace boxwood {
 
-/// `Memory` holds the encoded tree: a `view` of it and how many `bytes()` it has.
+/// `Memory` holds the encoded tree: a `view` of it, how many `bytes()` it has and `facts()` about them.
 template <class Memory>
 class SimdLayout final : public Layout {
  public:
@@ -37,6 +37,7 @@ class SimdLayout final : public Layout {
     }
   }
   std::size_t bytes() const override { return memory_.bytes(); }
+  std::vector<LayoutFact> facts() const override { return memory_.facts(); }
 
  private:
   Memory memory_;

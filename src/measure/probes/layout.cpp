@@ -16,7 +16,9 @@ const std::vector<Metric>& metrics() {
       {"primitive_multiplication", "", "references at the leaves for each primitive"},
       {"chunks", "", "chunks of bits"},
       {"chunk_fill", "", "nodes in chunks over nodes they have room for"},
-      {"absent_children", "", "places of wide quantized nodes that are filled up"}};
+      {"absent_children", "", "places of wide quantized nodes that are filled up"},
+      {"lane_fill", "", "children of SIMD nodes over children that they have room for"},
+      {"leaf_fill", "", "bytes of the triangles of SIMD leaves over bytes of the leaves"}};
   return all;
 }
 
