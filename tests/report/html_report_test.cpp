@@ -91,6 +91,23 @@ TEST(HtmlReport, EveryFigure_IsInItsTableAndInEveryPlotWithItsInterval) {
   EXPECT_EQ(count(html, "class=\"whisker\""), 3u * 2u * 3u);  // three lines for each of two figures
 }
 
+TEST(HtmlReport, TwoFigures_AreAPointWithBothIntervalsAndTheFrontIsNamed) {
+  StudyResult result = made_up();
+  PlotResult plot = result.plots.back();
+  plot.spec.x = "bytes / primitives";
+  plot.spec.x_is_figure = true;
+  plot.spec.x_title = "bytes per triangle";
+  plot.spec.series = {"k"};
+  plot.x = {{.median = 60, .low = 59, .high = 61, .n = 7}, {.median = 7, .low = 7, .high = 7, .n = 7}};
+  plot.on_front = {false, true};
+  result.plots = {plot};
+  const std::string html = html_report(std::span(&result, 1));
+  EXPECT_EQ(count(html, "4; bytes per triangle: 60 (59"), 1u) << html.substr(html.find("<svg"), 3000);
+  EXPECT_EQ(count(html, "class=\"whisker\""), 3u * 3u);  // of the second point x is exact
+  EXPECT_EQ(count(html, "class=\"ring\""), 1u);
+  EXPECT_EQ(count(html, "class=\"name"), 1u);
+}
+
 TEST(HtmlReport, EveryPicture_IsInThePage) {
   const std::string html = page();
   EXPECT_EQ(count(html, "src=\"data:image/png;base64,AQID\""), 1u);

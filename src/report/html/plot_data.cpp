@@ -19,7 +19,7 @@ PlotData::PlotData(const PlotResult& result)
       ratio(!result.spec.figure.baseline.empty()),
       panels(distinct(cells, spec.panels)),
       series(distinct(cells, spec.series)),
-      xs(levels_of(cells, spec.x)) {
+      xs(spec.x_is_figure ? std::vector<std::string>() : levels_of(cells, spec.x)) {
   numbers = std::ranges::all_of(xs, [](const std::string& x) { return number(x).has_value(); });
   if (numbers) std::ranges::stable_sort(xs, {}, [](const std::string& x) { return *number(x); });
 }

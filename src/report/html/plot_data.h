@@ -17,8 +17,9 @@ struct PlotData {
   const std::vector<Cell>& cells;
   bool ratio;
   std::vector<Levels> panels, series;
-  std::vector<std::string> xs;  ///< ascending when all are numbers, else as the study has them
-  bool numbers = false;         ///< whether all are
+  std::vector<std::string>
+      xs;                ///< ascending when all are numbers, else as the study has them; none where x is a figure
+  bool numbers = false;  ///< whether all are
 
   std::size_t series_of(const Cell& cell) const;
   std::size_t x_of(const Cell& cell) const;
