@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace boxwood {
@@ -16,6 +17,13 @@ constexpr std::string_view wipe_line = "\r\x1b[K";
 
 double seconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
+/// "42 s", "12 min", "2 h 05 min"; rounded up.
+std::string time_left_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", std::ceil(seconds));
+  const auto minutes = static_cast<std::int64_t>(std::ceil(seconds / 60));
+  return minutes < 100 ? fmt::format("{} min", minutes) : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+}
+
 }  // namespace
 
 std::string progress_line(double fraction, std::string_view what, double elapsed) {
@@ -24,7 +32,7 @@ std::string progress_line(double fraction, std::string_view what, double elapsed
   const std::string bar = std::string(full, '=') + std::string(bar_width - full, ' ');
   std::string text = fmt::format("{}  [{}]  {:3.0f} %", what, bar, done * 100);
   // Too little done says nothing about the rest.
-  if (done > 0.01 && done < 1) text += fmt::format("  {:.0f} s left", std::ceil(elapsed * (1 - done) / done));
+  if (done > 0.01 && done < 1) text += fmt::format("  {} left", time_left_text(elapsed * (1 - done) / done));
   return text;
 }
 

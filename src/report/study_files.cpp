@@ -29,7 +29,7 @@ std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::str
   for (const char* name : {"figure", "median", "low", "high", "mean", "n", "members"}) head.emplace_back(name);
   for (const CsvColumn& column : more) head.push_back(column.name);
   std::string out = csv_line(head);
-  const std::string name = figure.baseline.empty() ? figure.value : fmt::format("speedup in {}", figure.value);
+  const std::string name = is_ratio(figure) ? fmt::format("speedup in {}", figure.value) : figure.value;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     std::vector<std::string> line;

@@ -17,7 +17,7 @@ Json figure_json(const FigureSpec& figure) {
   return {{"value", figure.value},
           {"where", where_json(figure.where)},
           {"baseline", where_json(figure.baseline)},
-          {"ratio", !figure.baseline.empty()},
+          {"ratio", is_ratio(figure)},
           {"views", figure.each_view ? "each" : "mean"}};
 }
 

@@ -12,7 +12,7 @@ namespace boxwood {
 
 /// A number, a metric, or an operation on two nodes.
 struct Expression::Node {
-  char operation = 0;  ///< '+', '-', '*', '/', 'm' for a metric, '#' for a number
+  char operation = 0;  ///< '+', '-', '*', '/', 'm' for a metric, 'b' for a baseline's, '#' for a number
   double number = 0;
   std::string metric;
   std::shared_ptr<const Node> left, right;
@@ -27,13 +27,16 @@ constexpr int deepest = 64;
 /// Recursive descent: sum = product {(+|-) product}, product = factor {(*|/) factor}.
 class Parser {
  public:
-  Parser(std::string_view text, std::set<std::string>& metrics) : text_(text), metrics_(metrics) {}
+  explicit Parser(std::string_view text) : text_(text) {}
 
   NodePointer whole() {
     NodePointer root = sum(0);
     if (!rest().empty()) fail();
     return root;
   }
+
+  const std::set<std::string>& metrics() const { return metrics_; }
+  bool names_baseline() const { return names_baseline_; }
 
  private:
   NodePointer sum(int depth) {
@@ -81,13 +84,25 @@ class Parser {
   NodePointer metric() {
     auto node = std::make_shared<Expression::Node>();
     node->operation = 'm';
-    rest();
-    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) || text_[at_] == '_')) {
-      node->metric += text_[at_++];
+    node->metric = name();
+    if (node->metric == "baseline" && at_ < text_.size() && text_[at_] == '.') {
+      take();
+      node->operation = 'b';
+      node->metric = name();
+      names_baseline_ = true;
     }
     find_metric(node->metric);
     metrics_.insert(node->metric);
     return node;
+  }
+
+  std::string name() {
+    std::string out;
+    rest();
+    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) || text_[at_] == '_')) {
+      out += text_[at_++];
+    }
+    return out;
   }
 
   static NodePointer operation(char operation, NodePointer left, NodePointer right) {
@@ -112,13 +127,17 @@ class Parser {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  std::set<std::string>& metrics_;
+  std::set<std::string> metrics_;
+  bool names_baseline_ = false;
 };
 
-std::optional<double> value(const Expression::Node& node, const Expression::Lookup& value_of) {
+std::optional<double> value(const Expression::Node& node, const Expression::Lookup& value_of,
+                            const Expression::Lookup& baseline_value_of) {
   if (node.operation == '#') return node.number;
   if (node.operation == 'm') return value_of(node.metric);
-  const auto left = value(*node.left, value_of), right = value(*node.right, value_of);
+  if (node.operation == 'b') return baseline_value_of ? baseline_value_of(node.metric) : std::nullopt;
+  const auto left = value(*node.left, value_of, baseline_value_of);
+  const auto right = value(*node.right, value_of, baseline_value_of);
   if (!left || !right) return std::nullopt;
   switch (node.operation) {
     case '+':
@@ -135,11 +154,16 @@ std::optional<double> value(const Expression::Node& node, const Expression::Look
 }  // namespace
 
 Expression Expression::parse(std::string_view text) {
+  Parser parser(text);
   Expression out;
-  out.root_ = Parser(text, out.metrics_).whole();
+  out.root_ = parser.whole();
+  out.metrics_ = parser.metrics();
+  out.names_baseline_ = parser.names_baseline();
   return out;
 }
 
-std::optional<double> Expression::evaluate(const Lookup& value_of) const { return value(*root_, value_of); }
+std::optional<double> Expression::evaluate(const Lookup& value_of, const Lookup& baseline_value_of) const {
+  return value(*root_, value_of, baseline_value_of);
+}
 
 }  // namespace boxwood

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "measure/probe.h"
 #include "measure/significance.h"
@@ -63,12 +64,72 @@ const Series* find_baseline(const std::vector<Series>& all, const Series& series
   return found;
 }
 
+/// The samples of a metric of the scene, recipe, rays and view in `factors`; what depends on no rays has neither of the
+/// latter. Null when it was not measured.
+const std::vector<double>* samples_of(const std::vector<Series>& of_metric, const Factors& factors) {
+  const auto found = std::ranges::find_if(of_metric, [&](const Series& series) {
+    return std::ranges::all_of(series.factors, [&](const auto& entry) {
+      const auto level = factors.find(entry.first);
+      return level != factors.end() && level->second == entry.second;
+    });
+  });
+  return found == of_metric.end() ? nullptr : &found->samples;
+}
+
+using MetricSeries = std::map<std::string, std::vector<Series>>;
+
+/// Per repetition; metrics with fewer samples start anew.
+std::vector<double> with_baseline(const Expression& value, const MetricSeries& metrics, const Factors& own,
+                                  const Factors& baseline) {
+  std::map<std::string, const std::vector<double>*> of_own, of_baseline;
+  std::size_t repetitions = 0;
+  for (const auto& [metric, series] : metrics) {
+    of_own[metric] = samples_of(series, own);
+    of_baseline[metric] = samples_of(series, baseline);
+    if (!of_own[metric] || !of_baseline[metric]) return {};
+    repetitions = std::max({repetitions, of_own[metric]->size(), of_baseline[metric]->size()});
+  }
+  std::vector<double> out;
+  for (std::size_t r = 0; r < repetitions; ++r) {
+    const auto sample = [r](const std::map<std::string, const std::vector<double>*>& all) {
+      return [&all, r](const std::string& metric) {
+        return std::optional(all.at(metric)->at(r % all.at(metric)->size()));
+      };
+    };
+    if (const auto result = value.evaluate(sample(of_own), sample(of_baseline))) out.push_back(*result);
+  }
+  return out;
+}
+
+/// Of a value that names metrics of its baseline. Means over views are those of each metric, so that differences of two
+/// recipes are taken over all views at once.
+std::vector<Series> series_with_baseline(const Observations& observations, const Expression& value,
+                                         const FigureSpec& figure) {
+  MetricSeries metrics;
+  const std::vector<Series>* subjects = nullptr;
+  for (const std::string& name : value.metrics()) {
+    const Expression metric = Expression::parse(name);
+    metrics[name] = observations.series(metric, figure.each_view);
+    if (!subjects || depends_on_rays(metric)) subjects = &metrics[name];
+  }
+  std::vector<Series> out;
+  for (const Series& subject : *subjects) {
+    if (!matches(subject.factors, figure.where)) continue;
+    const Series* baseline = find_baseline(*subjects, subject, figure.baseline);
+    if (!baseline) continue;
+    std::vector<double> samples = with_baseline(value, metrics, subject.factors, baseline->factors);
+    if (!samples.empty()) out.push_back({subject.factors, std::move(samples)});
+  }
+  return out;
+}
+
 std::vector<Member> members_of(const std::vector<Series>& all, const FigureSpec& figure) {
+  const bool ratio = is_ratio(figure);
   std::vector<Member> members;
   for (const Series& series : all) {
     if (!matches(series.factors, figure.where)) continue;
     Member member{&series};
-    if (!figure.baseline.empty()) {
+    if (ratio) {
       member.baseline = find_baseline(all, series, figure.baseline);
       if (!member.baseline) continue;
       const auto positive = [](const std::vector<double>& samples) {
@@ -127,10 +188,15 @@ std::optional<Factors> levels_for(const Series& series, const std::vector<std::s
 
 }  // namespace
 
+bool is_ratio(const FigureSpec& figure) {
+  return !figure.baseline.empty() && !Expression::parse(figure.value).names_baseline();
+}
+
 std::vector<Cell> cells(const Study& study, const Observations& observations, const FigureSpec& figure,
                         const std::vector<std::string>& each) {
   const Expression value = Expression::parse(figure.value);
-  const std::vector<Series> all = observations.series(value, figure.each_view);
+  const std::vector<Series> all = value.names_baseline() ? series_with_baseline(observations, value, figure)
+                                                         : observations.series(value, figure.each_view);
   std::vector<std::pair<Factors, std::vector<Member>>> groups;
   for (const Member& member : members_of(all, figure)) {
     const std::optional<Factors> levels = levels_for(*member.series, each);

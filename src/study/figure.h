@@ -20,6 +20,9 @@ struct Cell {
   bool exact = false;            ///< not measured in time: the same in every run
 };
 
+/// Whether the figure is one of the baseline over this: it has a baseline, and its value does not name it.
+bool is_ratio(const FigureSpec& figure);
+
 /// The cells of a figure in the order of the study: all series that match `where`, grouped by the levels of `each`.
 /// A series whose baseline was not measured is left out; so is one that lacks a factor of `each`. Members of ratios are
 /// averaged geometrically, others arithmetically. Throws UsageError when a baseline is not one recipe but several.

@@ -83,7 +83,7 @@ class Run {
   }
 
   std::int64_t environment() const { return environment_; }
-  void announce(const std::string& what) { report_progress(progress_, std::min(1.0, steps_ / all_steps_), what); }
+  void announce(const std::string& what) { report_progress(progress_, fraction(), what); }
   void measure(const SceneSpec& spec, const StudyScene& scene);
 
  private:
@@ -105,6 +105,12 @@ class Run {
     announce(what);
   }
 
+  /// Of what this run has to do: what an earlier one did took none of the time that the rest is foreseen from.
+  double fraction() const {
+    const double own = all_steps_ - skipped_;
+    return own > 0 ? std::min(1.0, steps_ / own) : 1;
+  }
+
   const ExpectedUse* use() const { return use_ ? &*use_ : nullptr; }
   void tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants);
   void draw(const StudyScene& scene, const std::vector<Contestant>& contestants);
@@ -121,7 +127,7 @@ class Run {
   ProgressSink* progress_;
   std::int64_t environment_;
   std::set<std::string> done_;
-  double steps_ = 0, all_steps_;
+  double steps_ = 0, skipped_ = 0, all_steps_;
   std::vector<const Probe*> probes_;
   std::vector<Tree> trees_;
   std::string trees_are_of_;
@@ -244,7 +250,11 @@ void Run::build_structures(const StudyScene& scene, std::vector<Contestant>& con
       for (const Probe* probe : probes_) {
         if (probe->scope != ProbeScope::structure || round >= repetitions(*probe)) continue;
         Subject what = subject(scene, contestant, *probe, round);
-        if (!is_done(what)) missing.emplace_back(std::move(what), probe);
+        if (is_done(what)) {
+          skipped_ += 1;
+          continue;
+        }
+        missing.emplace_back(std::move(what), probe);
         step("building " + scene.name);
       }
       const bool last = round + 1 == study_.run.builds;
@@ -273,9 +283,12 @@ void Run::measure_rays(const StudyScene& scene, const Camera& view, const RaySet
     bool warm = !probe->repeated;
     for (std::uint32_t repetition = 0; repetition < repetitions(*probe); ++repetition) {
       for (const Contestant& contestant : contestants) {
-        step(fmt::format("{}, {}, {}", scene.name, view.name, rays.kind));
         const Subject missing = what(contestant, repetition);
-        if (is_done(missing)) continue;
+        if (is_done(missing)) {
+          skipped_ += 1;
+          continue;
+        }
+        step(fmt::format("{}, {}, {}", scene.name, view.name, rays.kind));
         if (!warm) {
           for (const Contestant& one : contestants) probe->run(input(scene, one, &rays, settings));
           warm = true;
@@ -303,7 +316,7 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
   for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), {}, 0});
   if (contestants.empty()) return;
   if (is_scene_done(scene, contestants)) {
-    steps_ += steps_in(study_, spec);
+    skipped_ += steps_in(study_, spec);
     return;
   }
   tell_use(scene, contestants);

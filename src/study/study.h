@@ -56,7 +56,9 @@ struct RunSpec {
 struct FigureSpec {
   std::string value;  ///< arithmetic on metrics, such as "build_ms + trace_ms"
   Where where;
-  Where baseline;          ///< not empty: figures are baseline / this, the baseline being the same but for these levels
+  /// Not empty: figures are baseline / this, the baseline being the same but for these levels; unless `value` says
+  /// itself what becomes of the baseline, by naming metrics of it.
+  Where baseline;
   bool each_view = false;  ///< keep the views of a scene apart instead of taking their mean
 };
 

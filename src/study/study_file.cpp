@@ -157,9 +157,11 @@ FigureSpec read_figure(TomlReader& reader, const Vocabulary& vocabulary) {
   FigureSpec figure;
   const TomlValue& value = reader.need("value");
   figure.value = value.text();
-  at(value, [&] { return Expression::parse(figure.value); });
+  const Expression parsed = at(value, [&] { return Expression::parse(figure.value); });
   figure.where = read_where(reader, "where", vocabulary);
   figure.baseline = read_where(reader, "baseline", vocabulary);
+  if (parsed.names_baseline() && figure.baseline.empty())
+    value.fail("names metrics of a baseline, so it needs 'baseline'");
   figure.each_view = one_of(reader, "views", "mean", {"mean", "each"}) == "each";
   return figure;
 }

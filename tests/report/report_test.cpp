@@ -64,6 +64,8 @@ TEST(Table, Markdown_EscapesBars) {
 
 TEST(ProgressLine, TellsShareAndTimeLeft) {
   EXPECT_EQ(progress_line(0.5, "tracing", 3), "tracing  [===============               ]   50 %  3 s left");
+  EXPECT_TRUE(progress_line(0.5, "tracing", 700).ends_with("  12 min left"));
+  EXPECT_TRUE(progress_line(0.25, "tracing", 2500).ends_with("  2 h 05 min left"));
   EXPECT_EQ(progress_line(0, "building", 3), "building  [                              ]    0 %");
   EXPECT_EQ(progress_line(1, "building", 3), "building  [==============================]  100 %");
 }

@@ -32,14 +32,25 @@ double noise(int repetition, std::size_t recipe) {
   return 1 + 0.01 * own[(static_cast<std::size_t>(repetition) * 3 + recipe) % 8];
 }
 
-JudgedClaim judge_with(const std::string& claim, const Truth& truth, int repetitions = 8) {
+/// Builds take 100 ms for k = 2, 120 for 4, 60 for 8.
+JudgedClaim judge_with(const std::string& claim, const Truth& truth, int repetitions = 8,
+                       const std::string& value = "trace_ms") {
   const Study study =
-      parse_study(study_head + "[[claim]]\nid = \"C\"\ntext = \"t\"\nvalue = \"trace_ms\"\n" + claim, "test.toml");
+      parse_study(study_head + "[[claim]]\nid = \"C\"\ntext = \"t\"\nvalue = \"" + value + "\"\n" + claim, "test.toml");
   const TemporaryStore folder;
   Store store = folder.open();
   const std::int64_t here = store.environment_number(this_environment());
   for (const SceneSpec& scene : study.scenes) {
     for (const RecipeSpec& recipe : study.recipes) {
+      Subject built;
+      built.study = study.name;
+      built.scene = scene.name;
+      built.scene_source = scene.find.front();
+      built.recipe = recipe.text;
+      built.probe = "build";
+      const std::string& k = recipe.factors.at("k");
+      const std::vector<StoredValue> build = {{"build_ms", "ms", k == "2" ? 100.0 : k == "4" ? 120.0 : 60.0}};
+      store.add(built, build, here);
       for (const char* view : {"a", "b"}) {
         for (int r = 0; r < repetitions; ++r) {
           Subject s;
@@ -174,6 +185,21 @@ TEST(Claim, Versus_IsWhatTrendsFollowAndSidesAreComparedWith) {
     return (recipe.factors.at("method") == "median" ? 3 : 4) * noise(r, recipe.text.size());
   };
   EXPECT_EQ(judge_with(each + hits + "unrelated_to = \"versus\"", by_method).verdict, Verdict::holds);
+}
+
+TEST(Claim, Value_MayNameMetricsOfTheBaseline) {
+  const std::string frames = "(build_ms - baseline.build_ms) / (baseline.trace_ms - trace_ms)";
+  // 20 ms more to build, 2 ms less to trace; 40 less to build, 5 more to trace.
+  const JudgedClaim four = judge_with(of_four + "between = [9, 11]", usual, 8, frames);
+  EXPECT_EQ(four.verdict, Verdict::holds) << four.measured;
+  ASSERT_EQ(four.cells.size(), 4u);
+  for (const JudgedCell& judged : four.cells) {
+    EXPECT_EQ(judged.cell.values.size(), 8u);
+    EXPECT_TRUE(judged.cell.baseline.empty());
+    EXPECT_FALSE(judged.cell.exact);
+  }
+  const JudgedClaim eight = judge_with(of_eight + "between = [7.5, 8.5]", usual, 8, frames);
+  EXPECT_EQ(eight.verdict, Verdict::holds) << eight.measured;
 }
 
 TEST(Claim, WithoutMeasurements_IsNotRun) {

@@ -31,6 +31,19 @@ TEST(Expression, LooksMetricsUp) {
             (std::set<std::string>{"build_ms", "trace_ms"}));
 }
 
+TEST(Expression, NamesMetricsOfItsBaseline) {
+  const Expression gain = Expression::parse("(baseline.trace_ms - trace_ms) / build_ms");
+  EXPECT_TRUE(gain.names_baseline());
+  EXPECT_EQ(gain.metrics(), (std::set<std::string>{"build_ms", "trace_ms"}));
+  const auto own = [](const std::string& metric) { return std::optional(metric == "trace_ms" ? 4.0 : 2.0); };
+  EXPECT_EQ(gain.evaluate(own, [](const std::string&) { return std::optional(10.0); }), 3);
+  EXPECT_EQ(gain.evaluate(own), std::nullopt);
+  EXPECT_FALSE(Expression::parse("trace_ms").names_baseline());
+  for (const char* text : {"baseline", "baseline.", "baseline.nothing", "baseline trace_ms"}) {
+    EXPECT_THROW(Expression::parse(text), UsageError) << text;
+  }
+}
+
 TEST(Expression, OfWhatIsMissingOrOverZero_IsNothing) {
   EXPECT_EQ(evaluate("build_ms + 1"), std::nullopt);
   EXPECT_EQ(evaluate("1 / hits", {{"hits", 0}}), std::nullopt);

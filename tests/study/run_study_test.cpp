@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/studies.h"
@@ -160,6 +161,33 @@ TEST(RunStudy, StoppedAnywhere_GoesOnWhereItWas) {
   EXPECT_GT(rounds, 1);
   const std::int64_t here = store.environment_number(this_environment());
   EXPECT_EQ(store.keys("small", here).size(), all_measurements);
+}
+
+/// Keeps what was reported.
+class Reports final : public ProgressSink {
+ public:
+  bool report(double fraction, std::string_view) override {
+    fractions.push_back(fraction);
+    return true;
+  }
+  std::vector<double> fractions;
+};
+
+TEST(RunStudy, GoingOn_ReportsTheShareOfWhatIsLeftToDo) {
+  const Study study = parse_study(small_study, "small.toml");
+  const TemporaryStore folder;
+  Store store = folder.open();
+  StopAfter stop(all_measurements - 20);
+  EXPECT_THROW(run_study(study, store, {}, &stop), Cancelled);
+  Reports rest;
+  run_study(study, store, {}, &rest);
+  EXPECT_LT(rest.fractions.size(), 40u);  // what was measured is passed over in silence
+  EXPECT_TRUE(std::ranges::is_sorted(rest.fractions));
+  EXPECT_EQ(rest.fractions.front(), 0);
+  EXPECT_EQ(rest.fractions.back(), 1);
+  Reports nothing;
+  run_study(study, store, {}, &nothing);
+  EXPECT_LE(nothing.fractions.size(), 2u);  // the scenes are looked at
 }
 
 TEST(RunStudy, OnASceneThatIsNowhere_NamesWhatWasTried) {

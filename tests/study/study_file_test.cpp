@@ -115,6 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{claim + "splits_at = [1, 2]\nvalue = \"trace_ms\"", "needs 'versus'"},
                       Mistake{claim + "rises_with = \"k\"\nvalue = \"trace_ms\"\nversus = { value = \"hits\" }",
                               "used by no expectation"},
+                      Mistake{claim + "above = 1\nvalue = \"baseline.trace_ms - trace_ms\"", "needs 'baseline'"},
                       Mistake{plot + "x = \"bytez\"\nkind = \"scatter\"", "'bytes'"},
                       Mistake{plot + "x = \"bytes\"", "no factor 'bytes'"},
                       Mistake{plot + "x = \"bytes\"\nkind = \"scatter\"\nfront = [\"low\"]", "better ends"},

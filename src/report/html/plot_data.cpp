@@ -16,7 +16,7 @@ std::optional<double> number(const std::string& text) {
 PlotData::PlotData(const PlotResult& result)
     : spec(result.spec),
       cells(result.cells),
-      ratio(!result.spec.figure.baseline.empty()),
+      ratio(is_ratio(result.spec.figure)),
       panels(distinct(cells, spec.panels)),
       series(distinct(cells, spec.series)),
       xs(spec.x_is_figure ? std::vector<std::string>() : levels_of(cells, spec.x)) {

@@ -33,7 +33,7 @@ std::string cell_html(const Cell* cell, bool ratio) {
 
 std::string table_html(const TableResult& result, const std::string& prefix) {
   const TableSpec& spec = result.spec;
-  const bool ratio = !spec.figure.baseline.empty();
+  const bool ratio = is_ratio(spec.figure);
   const CellGrid grid(result.cells, spec.rows, spec.columns);
   std::string out = fmt::format(
       "<figure id=\"{}-table-{}\"><figcaption><h3>{}</h3><p>{}</p></figcaption><div class=\"wide\">"
@@ -58,8 +58,10 @@ std::string table_html(const TableResult& result, const std::string& prefix) {
 
 std::string figure_note(const FigureSpec& figure) {
   std::string out = fmt::format("<code>{}</code>", escaped(figure.value));
-  if (!figure.baseline.empty()) {
+  if (is_ratio(figure)) {
     out += fmt::format(", as a ratio: {} over this, above 1 is less than there", where_text(figure.baseline));
+  } else if (!figure.baseline.empty()) {
+    out += fmt::format(", where baseline is {}", where_text(figure.baseline));
   }
   if (!figure.where.empty()) out += fmt::format("; {}", where_text(figure.where));
   return out;
