@@ -6,6 +6,7 @@
 #include "boxwood/ray.h"           // IWYU pragma: export
 #include "boxwood/ray_set.h"       // IWYU pragma: export
 #include "boxwood/recipe.h"        // IWYU pragma: export
+#include "boxwood/saved.h"         // IWYU pragma: export
 #include "boxwood/scene.h"         // IWYU pragma: export
 #include "boxwood/structure.h"     // IWYU pragma: export
 #include "boxwood/transform.h"     // IWYU pragma: export

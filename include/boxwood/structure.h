@@ -57,6 +57,8 @@ class Structure {
 
   const BuildReport& report() const { return report_; }
   const Recipe& recipe() const { return recipe_; }
+  /// What answers the queries; of use to the rooms of this project only.
+  const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
  private:
   std::shared_ptr<const Layout> layout_;

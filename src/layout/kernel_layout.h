@@ -7,6 +7,7 @@
 
 #include "layout/layout.h"
 #include "layout/leaves.h"
+#include "layout/saved_level.h"
 
 namespace boxwood {
 
@@ -89,6 +90,18 @@ class KernelLayout final : public Layout {
       for (LayoutFact& fact : level_.nodes.facts()) facts.push_back(std::move(fact));
     }
     return facts;
+  }
+  std::optional<SavedLevel> saved() const override {
+    if constexpr (requires(SavedLevel & out) { level_.nodes.save(out); }) {
+      SavedLevel out;
+      level_.nodes.save(out);
+      save_leaves(level_.leaves, out);
+      out.facts.reach = level_.extent.reach;
+      out.facts.gain = level_.extent.gain;
+      out.facts.cull = level_.cull ? 1 : 0;
+      return out;
+    }
+    return {};
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "layout/saved_level.h"
+
 namespace boxwood {
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
@@ -40,5 +42,19 @@ bool Layout::any_below(const Ray& ray, RayCounters* counters) const {
   *counters += spent;
   return blocked != 0;
 }
+
+void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
+  for (const LayoutFact& fact : facts) {
+    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
+    if (sum == sums.end()) {
+      sums.push_back(fact);
+    } else {
+      sum->value += fact.value;
+      sum->per += fact.per;
+    }
+  }
+}
+
+std::optional<SavedLevel> Layout::saved() const { return {}; }
 
 }  // namespace boxwood

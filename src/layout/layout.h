@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "boxwood/ray.h"
 
 namespace boxwood {
+
+struct SavedLevel;
 
 /// An immutable memory layout with its traversal kernels: the only thing a Structure holds. One virtual call per query,
 /// and one per visit of an instance, never per node. Every layout gives the same answers, to the bit; only a peer,
@@ -38,7 +41,12 @@ class Layout {
   /// What else it tells of itself: at least `topology_bytes`, what a walk reads at every step, inner nodes and leaves
   /// alike, and `leaf_bytes`, all other. Empty where these are not kept apart.
   virtual std::vector<LayoutFact> facts() const { return {}; }
+  /// What files hold of it, referring to its memory; nothing when they cannot hold it.
+  virtual std::optional<SavedLevel> saved() const;
 };
+
+/// Adds up the facts of several levels, name by name.
+void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts);
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 

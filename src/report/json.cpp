@@ -54,6 +54,7 @@ Json to_json(const Comparison& comparison) {
     Json rays = Json::object();
     for (const RayKindRow& kind : row.rays) rays[kind.kind] = ray_kind_json(kind);
     rows.push_back({{"recipe", row.recipe},
+                    {"file", row.file.empty() ? Json() : Json(row.file)},
                     {"peer", row.peer},
                     {"build_ms", to_json(row.build_ms)},
                     {"bytes", row.bytes},

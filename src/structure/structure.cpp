@@ -26,18 +26,6 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-void add(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
-  for (const LayoutFact& fact : facts) {
-    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
-    if (sum == sums.end()) {
-      sums.push_back(fact);
-    } else {
-      sum->value += fact.value;
-      sum->per += fact.per;
-    }
-  }
-}
-
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
 std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
                                           BuildReport& report) {
@@ -50,7 +38,7 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   auto layout = pipeline.encode(std::move(tree), contents);
   report.build_ms += milliseconds_since(begin_layout);
   report.bytes += layout->bytes();
-  add(report.facts, layout->facts());
+  add_facts(report.facts, layout->facts());
   return layout;
 }
 

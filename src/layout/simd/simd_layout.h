@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "layout/layout.h"
+#include "layout/saved_level.h"
 #include "layout/simd/wide_kernels.h"
 
 namespace boxwood {
@@ -37,6 +38,14 @@ class SimdLayout final : public Layout {
     }
   }
   std::size_t bytes() const override { return memory_.bytes(); }
+  std::optional<SavedLevel> saved() const override {
+    if constexpr (requires(SavedLevel & out) { memory_.save(out); }) {
+      SavedLevel out;
+      memory_.save(out);
+      return out;
+    }
+    return {};
+  }
 
  private:
   Memory memory_;
