@@ -93,7 +93,7 @@ std::vector<Trial> run_trials(const Scene& scene, std::span<const Recipe> recipe
   std::size_t batch_bytes = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     report_progress(progress, static_cast<double>(i) / static_cast<double>(trials.size()), "trying recipes");
-    if (settings.deadline > 0 && now(Clock::wall) > settings.deadline) break;
+    if (i >= largest_batch && settings.deadline > 0 && now(Clock::wall) > settings.deadline) break;
     if (std::optional<Structure> structure = try_to_build(scene, settings, trials[i])) {
       batch_bytes += trials[i].bytes;
       batch.push_back({i, std::move(*structure), {}});

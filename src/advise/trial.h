@@ -28,7 +28,7 @@ struct TrialSettings {
   std::uint32_t repeats = 3;
   std::uint32_t threads = 1;           ///< 1 is timed in CPU time, more in wall time
   std::size_t batch_bytes = 1u << 30;  ///< structures that are held at once, roughly
-  double deadline = 0;                 ///< on Clock::wall; no further recipe is built after it. 0: none
+  double deadline = 0;                 ///< on Clock::wall; after it no recipe is built but the first few. 0: none
   const ExpectedUse* use = nullptr;
 };
 

@@ -87,11 +87,23 @@ TEST(ThinScene, KeepsAreaAndPlacements) {
   EXPECT_EQ(thin_scene(placed, 1'000'000).unique_triangles(), placed.unique_triangles());
 }
 
+/// A ball whose triangles face outward, or inward.
+Scene ball(bool outward) {
+  Scene scene = sphere(12);
+  Mesh& mesh = scene.meshes[0];
+  double volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    volume += double{dot(cross(mesh.positions[a], mesh.positions[b]), mesh.positions[c])};
+  }
+  if ((volume > 0) == outward) return scene;
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return scene;
+}
+
 /// A closed room that is seen from inside, with a closed solid in it.
 Scene room() {
-  Scene scene = transformed(cube(4), 5, {});
-  for (Triangle& triangle : scene.meshes[0].triangles) std::swap(triangle[1], triangle[2]);
-  const Scene solid = transformed(cube(4), 1, {2, 0, 0});
+  Scene scene = transformed(ball(false), 5, {});
+  const Scene solid = transformed(ball(true), 1, {2, 0, 0});
   Mesh& mesh = scene.meshes[0];
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), solid.meshes[0].positions.begin(), solid.meshes[0].positions.end());
@@ -104,18 +116,17 @@ TEST(FreeCameras, StandInTheRoomAndNotInTheSolid) {
   const std::vector<Camera> cameras = free_cameras(scene, build(scene, "default"), 4);
   ASSERT_EQ(cameras.size(), 4u);
   for (const Camera& camera : cameras) {
-    EXPECT_TRUE(scene.bounds().contains(Box{camera.eye, camera.eye}));
-    const Vec3 from_solid = camera.eye - Vec3{2, 0, 0};
-    EXPECT_GT(std::max({std::fabs(from_solid.x), std::fabs(from_solid.y), std::fabs(from_solid.z)}), 1);
+    EXPECT_LT(length(camera.eye), length(scene.bounds().extent()) / 2);
+    EXPECT_GT(length(camera.eye - Vec3{2, 0, 0}), 0.95f);
   }
   EXPECT_TRUE(free_cameras(scene_of({}, {}), build(scene_of({}, {}), "default"), 4).empty());
-  const Scene solid = cube(4);
+  const Scene solid = ball(true);
   EXPECT_TRUE(free_cameras(solid, build(solid, "default"), 4).empty());
 }
 
 AdviseSettings quick() {
   AdviseSettings settings;
-  settings.seconds = 1.5;
+  settings.seconds = 1000;  // no result may depend on the clock
   settings.repeats = 2;
   settings.thin_from = 300;
   settings.thin_triangles = 150;
