@@ -53,7 +53,7 @@ FileCosts save_and_check(const Structure& structure, const BuildCommandOptions& 
   return costs;
 }
 
-std::string build_text(const Scene& scene, const Structure& structure, const FileCosts& costs,
+std::string saved_text(const Scene& scene, const Structure& structure, const FileCosts& costs,
                        const std::string& file) {
   const BuildReport& report = structure.report();
   Table table({{"structure", Align::left}, {""}});
@@ -69,7 +69,7 @@ std::string build_text(const Scene& scene, const Structure& structure, const Fil
                      file, file);
 }
 
-Json build_json(const Scene& scene, const Structure& structure, const FileCosts& costs, const std::string& file) {
+Json saved_json(const Scene& scene, const Structure& structure, const FileCosts& costs, const std::string& file) {
   const BuildReport& report = structure.report();
   return {{"scene", scene.name},
           {"triangles", scene.placed_triangles()},
@@ -96,9 +96,9 @@ int run_build(const BuildCommandOptions& options) {
   check_interrupt();
   const FileCosts costs = save_and_check(structure, options);
   if (options.common.json) {
-    print_json(build_json(scene, structure, costs, options.output));
+    print_json(saved_json(scene, structure, costs, options.output));
   } else {
-    print(build_text(scene, structure, costs, options.output));
+    print(saved_text(scene, structure, costs, options.output));
   }
   return exit_done;
 }

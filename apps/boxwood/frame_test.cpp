@@ -76,7 +76,7 @@ void describe_tree(const Scene& scene, const Recipe& recipe, FrameTest& test) {
   test.inner_nodes = known.inner_nodes;
   test.leaf_nodes = known.leaves;
   test.node_bytes -= std::min<std::uint64_t>(test.node_bytes, known.references * sizeof(LeafTriangle));
-  if (has_slabs(recipe)) test.surface_ratio = slab_surface_ratio(tree);
+  if (has_slabs(recipe)) test.surface_ratio = slab_fit(tree).surface_ratio;
 }
 
 std::string times_text(const char* what, const FrameTimes& times) {

@@ -79,7 +79,7 @@ void App::run() {
       if (show_boxes_) draw_boxes(*this, panes_[i]);
       if (walk_) draw_walk_boxes(*this, panes_[i]);
     }
-    draw_panel(*this);
+    if (show_panel_) draw_panel(*this);
     if (walk_) draw_walk(*this);
     if (help_) draw_help(*this);
     window_.draw();
@@ -155,6 +155,9 @@ void App::act(Action action) {
     case Action::reset_camera:
       control_ = CameraControl(first_camera_, frames_[0].bounds());
       return;
+    case Action::panel:
+      show_panel_ = !show_panel_;
+      return;
     case Action::help:
       help_ = !help_;
       return;
@@ -220,13 +223,22 @@ void App::pick(float x, float y) {
   }
 }
 
+float App::panel_column() const {
+  if (!state_.compare || !show_panel_) return 0;
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_.handle(), &width, &height);
+  return std::floor(std::min(400.0f, 0.3f * static_cast<float>(width)));
+}
+
 void App::lay_out_panes() {
   int width = 0, height = 0;
   glfwGetWindowSize(window_.handle(), &width, &height);
   const int count = state_.compare ? 3 : 1;
-  const int each = std::max(width / count, 8);
+  const auto column = static_cast<int>(panel_column());
+  const int each = std::max((width - column) / count, 8);
   for (int i = 0; i < count; ++i) {
-    panes_[i] = {static_cast<float>(i * each), 0, static_cast<float>(each), static_cast<float>(std::max(height, 8))};
+    panes_[i] = {static_cast<float>(column + i * each), 0, static_cast<float>(each),
+                 static_cast<float>(std::max(height, 8))};
   }
   state_.settings.width = static_cast<std::uint32_t>(panes_[0].width);
   state_.settings.height = static_cast<std::uint32_t>(panes_[0].height);

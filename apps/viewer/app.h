@@ -57,6 +57,9 @@ class App {
 
   // Output.
   void lay_out_panes();
+  /// Width of the column that the panel has to itself, left of the pictures: while comparing, where each picture is
+  /// small.
+  float panel_column() const;
   void take_pictures();
   void draw_pane(const Pane& pane, PictureTexture& texture, const char* caption);
   void advance_sequence(float seconds);
@@ -84,7 +87,8 @@ class App {
   Transfer transfer_ = Transfer::texture_upload;
   double transfer_ms_[2] = {0, 0};  // of the last transfer in each way
 
-  bool help_ = false, show_boxes_ = false, playing_ = false, save_asked_ = false, window_asked_ = false;
+  bool help_ = false, show_panel_ = true, show_boxes_ = false, playing_ = false, save_asked_ = false,
+       window_asked_ = false;
   int level_ = 3;
   float gain_ = 4, frames_per_second_ = 10, since_frame_ = 0;
   std::vector<LevelBox> boxes_;

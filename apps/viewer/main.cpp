@@ -7,6 +7,7 @@
 #include "boxwood/error.h"
 #include "boxwood/recipe.h"
 #include "render/integrator.h"
+#include "transfer_times.h"
 
 namespace boxwood::viewer {
 namespace {
@@ -17,6 +18,7 @@ struct CommandLine {
   AppOptions app;
   std::vector<std::string> scenes;
   std::string size = "1280x720";
+  bool time_transfers = false;
 };
 
 void parse_size(const std::string& text, AppOptions& options) {
@@ -31,6 +33,11 @@ void parse_size(const std::string& text, AppOptions& options) {
 
 void run(CommandLine& line) {
   parse_size(line.size, line.app);
+  if (line.time_transfers) {
+    fmt::print("{}\n", transfer_times(line.app.width, line.app.height));
+    return;
+  }
+  if (line.scenes.empty()) throw UsageError("SCENE is missing: a file or generate:NAME(…)");
   if (line.app.recipes.empty()) line.app.recipes = {"default"};
   for (const std::string& recipe : line.app.recipes) Recipe::parse(recipe);
   find_integrator(line.app.integrator);
@@ -51,7 +58,7 @@ int main(int argc, char** argv) {
   line.app.recipes.clear();
   CLI::App cli{"Fly through a scene while acceleration structures are switched under it. Press h for the keys."};
   cli.name("boxwood-viewer");
-  cli.add_option("SCENE", line.scenes, "a file or generate:NAME(…); several are the frames of a sequence")->required();
+  cli.add_option("SCENE", line.scenes, "a file or generate:NAME(…); several are the frames of a sequence");
   cli.add_option("-a,--recipe", line.app.recipes, "recipe to trace with; the first two are compared, r switches")
       ->expected(1)
       ->take_all();
@@ -60,6 +67,8 @@ int main(int argc, char** argv) {
   cli.add_option("--size", line.size, "of the window");
   cli.add_option("--threads", line.app.threads, "to paint with; 0: all");
   cli.add_option("--samples", line.app.samples, "per pixel, at most; 1 goes through the pixel's centre");
+  cli.add_flag("--time-transfers", line.time_transfers,
+               "time how a picture of --size gets to the graphics card, in both ways, and leave");
   cli.add_option("--folder", line.app.folder, "where pictures and cameras are saved");
   try {
     cli.parse(argc, argv);

@@ -58,6 +58,19 @@ void recipe_field(const char* label, std::string& recipe, const std::vector<std:
   ImGui::PopID();
 }
 
+/// In the column beside the pictures where there is one, from `top` to `bottom` as shares of the window; else anywhere
+/// over them, at first at `corner`.
+void place_window(float column, float top, float bottom, ImVec2 corner, ImVec2 size) {
+  if (column == 0) {
+    ImGui::SetNextWindowPos(corner, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+    return;
+  }
+  const float height = ImGui::GetIO().DisplaySize.y;
+  ImGui::SetNextWindowPos({0, top * height});
+  ImGui::SetNextWindowSize({column, (bottom - top) * height});
+}
+
 void figures(const Picture& picture) {
   text(fmt::format("{:.1f} ms a frame, {:.2f} Mrays/s per thread", picture.frame_ms, picture.mrays_per_s));
   text(fmt::format("built in {:.1f} ms, {:.1f} bytes per triangle", picture.build.build_ms,
@@ -71,8 +84,7 @@ void figures(const Picture& picture) {
 }  // namespace
 
 void draw_panel(App& app) {
-  ImGui::SetNextWindowPos({12, 12}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({400, 460}, ImGuiCond_FirstUseEver);
+  place_window(app.panel_column(), 0, app.walk_ ? 0.6f : 1, {12, 12}, {400, 460});
   ImGui::Begin("Boxwood (h: help)");
   const Scene& scene = app.frames_[app.state_.frame];
   text(fmt::format("{}: {} triangles", scene.name, scene.placed_triangles()));
@@ -171,8 +183,7 @@ void draw_help(App& app) {
 
 void draw_walk(App& app) {
   bool open = true;
-  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - 392, 12}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({380, 420}, ImGuiCond_FirstUseEver);
+  place_window(app.panel_column(), 0.6f, 1, {ImGui::GetIO().DisplaySize.x - 392, 12}, {380, 420});
   ImGui::Begin("A ray's way through the tree", &open);
   const RayWalk& walk = *app.walk_;
   text(fmt::format("{} node tests, {} met; {} leaves, {} triangle tests", walk.node_tests, walk.node_hits, walk.leaves,

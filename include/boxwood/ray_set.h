@@ -16,7 +16,7 @@ namespace boxwood {
 
 /// Rays of one kind that are asked one kind of question.
 struct RaySet {
-  std::string kind;  ///< "primary", "shadow", "ao", "diffuse1", "random", "axis", "grazing", …
+  std::string kind;  ///< "primary", "shadow", "ao", "diffuse1", "path", "random", "axis", "grazing", …
   Query query = Query::closest_hit;
   std::vector<Ray> rays;
 };
@@ -33,7 +33,7 @@ struct RaySetSettings {
   std::uint32_t block = 1;  ///< one pixel of each block x block pixels, picked at random, starts rays; 1: all do
 };
 
-/// Every kind `make_ray_sets` knows, in its order, without bounce numbers: primary shadow ao diffuse random axis
+/// Every kind `make_ray_sets` knows, in its order, without bounce numbers: primary shadow ao diffuse path random axis
 /// grazing.
 std::span<const std::string_view> ray_kinds();
 

@@ -21,7 +21,7 @@ const SavedKindEntry& entry_of(SavedKind kind) {
 
 void check_facts(const SavedFacts& facts, const TraceOptions& trace) {
   if (facts.instances > 1 || facts.cull > 1 || facts.out_of_cache > 1 || (facts.cull != 0) != trace.cull ||
-      std::ranges::any_of(facts.zero, [](std::uint32_t word) { return word != 0; })) {
+      facts.zero[0] != 0 || std::ranges::any_of(facts.zeros, [](std::uint64_t word) { return word != 0; })) {
     throw Error("it has a level with flags that mean nothing");
   }
   if (!(std::isfinite(facts.reach) && facts.reach >= 0 && std::isfinite(facts.gain) && facts.gain > 0)) {

@@ -20,7 +20,7 @@ struct InstanceLeaves;
 /// How a level is encoded; the number stands in files.
 enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3 };
 
-/// What kernels must know of a level besides its arrays. Stands in files as it is, 96 bytes; members that a kind of
+/// What kernels must know of a level besides its arrays. Stands in files as it is, 128 bytes; members that a kind of
 /// level does not use are zero.
 struct SavedFacts {
   SavedKind kind{};
@@ -35,9 +35,11 @@ struct SavedFacts {
   Box root_box{{0, 0, 0}, {0, 0, 0}};
   Link root;
   std::uint32_t primitives = 0;  ///< one more than the largest number of a triangle, or an instance, in it
-  std::uint32_t zero[5] = {};
+  std::uint32_t zero[1] = {};
+  std::uint64_t nodes = 0, inner_children = 0, triangles = 0;  ///< WideShape
+  std::uint64_t zeros[3] = {};
 };
-static_assert(sizeof(SavedFacts) == 96);
+static_assert(sizeof(SavedFacts) == 128);
 
 /// One instance of a level above, in files: 64 bytes.
 struct SavedInstance {

@@ -10,8 +10,8 @@ namespace boxwood {
 
 const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = {
-      build_probe(),   size_probe(), splits_probe(), layout_probe(),  tree_probe(),
-      quality_probe(), time_probe(), tests_probe(),  answers_probe(), image_probe(),
+      build_probe(), size_probe(), splits_probe(), layout_probe(),  tree_probe(),  quality_probe(),
+      slabs_probe(), time_probe(), tests_probe(),  answers_probe(), image_probe(),
   };
   return all;
 }

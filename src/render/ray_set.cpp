@@ -13,8 +13,8 @@
 namespace boxwood {
 namespace {
 
-constexpr std::array<std::string_view, 7> kinds_in_order = {"primary", "shadow", "ao",     "diffuse",
-                                                            "random",  "axis",   "grazing"};
+constexpr std::array<std::string_view, 8> kinds_in_order = {"primary", "shadow", "ao",   "diffuse",
+                                                            "path",    "random", "axis", "grazing"};
 
 void check(const RaySetSettings& settings, std::span<const std::string> kinds) {
   for (const std::string& kind : kinds) {
@@ -61,6 +61,7 @@ std::vector<RaySet> make_ray_sets(const Scene& scene, const Structure& structure
       if (bounce < settings.bounces) hits = trace(structure, rays);
     }
   }
+  if (wanted("path")) sets.push_back({"path", Query::closest_hit, path_rays(context)});
   if (wanted("random")) sets.push_back({"random", Query::closest_hit, random_rays(context)});
   if (wanted("axis")) sets.push_back({"axis", Query::closest_hit, axis_rays(context)});
   if (wanted("grazing")) sets.push_back({"grazing", Query::closest_hit, grazing_rays(context)});

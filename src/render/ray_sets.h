@@ -28,6 +28,13 @@ std::vector<Ray> ao_rays(const RaySetContext& context, std::span<const Ray> rays
 std::vector<Ray> diffuse_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits,
                               std::uint32_t bounce);
 
+/// Most bounces of the paths whose rays are the set "path".
+inline constexpr std::uint32_t path_set_depth = 20;
+
+/// All closest-hit rays of a path tracer with one path through each pixel and at most path_set_depth bounces, blocks of
+/// pixels one after the other, in each bounce by bounce.
+std::vector<Ray> path_rays(const RaySetContext& context);
+
 // Sets of settings.random_rays rays that know the scene only; none when the scene is empty.
 
 /// Uniform origins in the scene's box, uniform directions.

@@ -28,6 +28,7 @@ std::uint64_t count_hits(std::span<const Hit> hits) {
 }  // namespace
 
 void Tracer::closest_hits(std::string_view kind, std::span<const Ray> rays, std::span<Hit> hits) {
+  if (recorded_) recorded_->insert(recorded_->end(), rays.begin(), rays.end());
   const double seconds = seconds_of([&] { structure_.closest_hits(rays, hits); });
   add_report(reports_, {std::string(kind), Query::closest_hit, rays.size(), count_hits(hits), seconds});
 }

@@ -18,12 +18,16 @@ class Tracer {
   void closest_hits_counted(std::string_view kind, std::span<const Ray> rays, std::span<Hit> hits,
                             std::span<RayCounters> counters);
 
+  /// From now on, appends every closest-hit ray to `rays`, which must outlive the tracer's use.
+  void record_closest(std::vector<Ray>& rays) { recorded_ = &rays; }
+
   /// In order of first use.
   const std::vector<RayKindReport>& reports() const { return reports_; }
 
  private:
   const Structure& structure_;
   std::vector<RayKindReport> reports_;
+  std::vector<Ray>* recorded_ = nullptr;
 };
 
 /// Adds `report` to the one of its kind, or appends it.

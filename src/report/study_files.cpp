@@ -16,14 +16,22 @@ void write(const fs::path& file, const std::string& text) {
   out.commit();
 }
 
-/// One line per cell: its factors in the order given, then its figures.
-std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::string>& factors,
-                      const FigureSpec& figure) {
+/// A further column: what it is called, and what it says of each cell.
+struct CsvColumn {
+  std::string name;
+  std::vector<std::string> fields;
+};
+
+/// One line per cell: its factors in the order given, then its figures, then `more`.
+std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::string>& factors, const FigureSpec& figure,
+                      const std::vector<CsvColumn>& more = {}) {
   std::vector<std::string> head = factors;
   for (const char* name : {"figure", "median", "low", "high", "mean", "n", "members"}) head.emplace_back(name);
+  for (const CsvColumn& column : more) head.push_back(column.name);
   std::string out = csv_line(head);
   const std::string name = figure.baseline.empty() ? figure.value : fmt::format("speedup in {}", figure.value);
-  for (const Cell& cell : cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& cell = cells[i];
     std::vector<std::string> line;
     for (const std::string& factor : factors) line.push_back(cell.factors.at(factor));
     line.push_back(name);
@@ -32,6 +40,7 @@ std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::str
     }
     line.push_back(std::to_string(cell.estimate.n));
     line.push_back(std::to_string(cell.members));
+    for (const CsvColumn& column : more) line.push_back(column.fields[i]);
     out += csv_line(line);
   }
   return out;
@@ -40,6 +49,20 @@ std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::str
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
+}
+
+std::string plot_csv(const PlotResult& plot) {
+  std::vector<std::string> factors = joined(plot.spec.panels, plot.spec.series);
+  if (!plot.spec.x_is_figure) {
+    factors.push_back(plot.spec.x);
+    return cells_csv(plot.cells, factors, plot.spec.figure);
+  }
+  CsvColumn x{plot.spec.x, {}}, front{"front", {}};
+  for (std::size_t i = 0; i < plot.cells.size(); ++i) {
+    x.fields.push_back(csv_number(plot.x[i].median));
+    front.fields.emplace_back(plot.on_front[i] ? "1" : "0");
+  }
+  return cells_csv(plot.cells, factors, plot.spec.figure, {x, front});
 }
 
 std::string claims_csv(const std::vector<JudgedClaim>& claims) {
@@ -82,8 +105,7 @@ void write_study(const fs::path& folder, const StudyResult& result) {
           cells_csv(table.cells, joined(table.spec.rows, table.spec.columns), table.spec.figure));
   }
   for (const PlotResult& plot : result.plots) {
-    write(folder / "plots" / (plot.spec.id + ".csv"),
-          cells_csv(plot.cells, joined(joined(plot.spec.panels, plot.spec.series), {plot.spec.x}), plot.spec.figure));
+    write(folder / "plots" / (plot.spec.id + ".csv"), plot_csv(plot));
   }
   for (const StoredPicture& picture : result.pictures) {
     OutputFile out(folder / "images" / picture_file_name(picture));

@@ -36,6 +36,33 @@ Json cells_json(const std::vector<Cell>& cells) {
   return out;
 }
 
+/// Where x is a figure, each cell has its own, and says whether it is on the front.
+Json plot_cells_json(const PlotResult& plot) {
+  Json out = cells_json(plot.cells);
+  for (std::size_t i = 0; i < plot.x.size(); ++i) {
+    out[i]["x"] = to_json(plot.x[i]);
+    if (plot.spec.front) out[i]["front"] = static_cast<bool>(plot.on_front[i]);
+  }
+  return out;
+}
+
+Json plot_json(const PlotResult& plot) {
+  const PlotSpec& spec = plot.spec;
+  return {{"id", spec.id},
+          {"title", spec.title},
+          {"kind", spec.kind},
+          {"x", spec.x},
+          {"x_is_figure", spec.x_is_figure},
+          {"series", spec.series},
+          {"panels", spec.panels},
+          {"x_title", spec.x_title},
+          {"y_title", spec.y_title},
+          {"log_x", spec.log_x},
+          {"log_y", spec.log_y},
+          {"figure", figure_json(spec.figure)},
+          {"cells", plot_cells_json(plot)}};
+}
+
 Json claim_json(const JudgedClaim& claim) {
   Json cells = Json::array();
   for (const JudgedCell& judged : claim.cells) {
@@ -43,6 +70,7 @@ Json claim_json(const JudgedClaim& claim) {
     cell["verdict"] = verdict_name(judged.verdict);
     cell["p_value"] = judged.p_value;
     cell["welch_p_value"] = judged.welch_p_value;
+    if (judged.versus) cell["versus"] = *judged.versus;
     cells.push_back(std::move(cell));
   }
   return {{"id", claim.spec.id},        {"text", claim.spec.text},           {"verdict", verdict_name(claim.verdict)},
@@ -102,18 +130,7 @@ Json to_json(const StudyResult& result) {
                       {"figure", figure_json(table.spec.figure)},
                       {"cells", cells_json(table.cells)}});
   }
-  for (const PlotResult& plot : result.plots) {
-    plots.push_back({{"id", plot.spec.id},
-                     {"title", plot.spec.title},
-                     {"kind", plot.spec.kind},
-                     {"x", plot.spec.x},
-                     {"series", plot.spec.series},
-                     {"panels", plot.spec.panels},
-                     {"y_title", plot.spec.y_title},
-                     {"log_y", plot.spec.log_y},
-                     {"figure", figure_json(plot.spec.figure)},
-                     {"cells", cells_json(plot.cells)}});
-  }
+  for (const PlotResult& plot : result.plots) plots.push_back(plot_json(plot));
   for (const JudgedClaim& claim : result.claims) claims.push_back(claim_json(claim));
   return {{"study", study.name},
           {"title", study.title},

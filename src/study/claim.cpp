@@ -17,6 +17,7 @@ using Kind = Expectation::Kind;
 
 constexpr double significance = 0.05;
 constexpr double negligible = 0.01;  // relative difference that nobody would notice
+constexpr double weak_correlation = 0.5;
 
 /// p-values of the cells against `reference`, on logarithms where the figure is a ratio.
 void test_cells(std::vector<JudgedCell>& cells, double reference) {
@@ -63,6 +64,13 @@ Verdict judge_difference(const JudgedCell& judged, double reference) {
   return close ? Verdict::does_not_hold : Verdict::inconclusive;
 }
 
+/// Whether the figure lies above its limit just where the second figure lies above its own.
+Verdict judge_sides(const JudgedCell& judged, const Expectation& expect) {
+  const Estimate& e = judged.cell.estimate;
+  if (e.low <= expect.low && e.high >= expect.low) return Verdict::inconclusive;
+  return (e.median > expect.low) == (*judged.versus > expect.high) ? Verdict::holds : Verdict::does_not_hold;
+}
+
 void judge_cells(std::vector<JudgedCell>& cells, const Expectation& expect) {
   if (expect.kind == Kind::above || expect.kind == Kind::differs) test_cells(cells, expect.low);
   if (expect.kind == Kind::below) test_cells(cells, expect.high);
@@ -80,9 +88,13 @@ void judge_cells(std::vector<JudgedCell>& cells, const Expectation& expect) {
       case Kind::differs:
         judged.verdict = judge_difference(judged, expect.low);
         break;
+      case Kind::splits:
+        judged.verdict = judge_sides(judged, expect);
+        break;
       case Kind::same:
       case Kind::rises:
       case Kind::falls:
+      case Kind::unrelated:
         break;  // of all cells together
     }
   }
@@ -168,7 +180,9 @@ RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector
   return {rho, 2 * boost::math::cdf(boost::math::complement(distribution, std::fabs(t)))};
 }
 
-double position(const Cell& cell, const std::string& along) {
+double position(const JudgedCell& judged, const std::string& along) {
+  const Cell& cell = judged.cell;
+  if (along == "versus") return *judged.versus;
   if (along == "triangles") return cell.triangles;
   if (along == "baseline") return cell.baseline.empty() ? 0 : median(cell.baseline);
   const auto found = cell.factors.find(along);
@@ -183,13 +197,19 @@ void judge_trend(JudgedClaim& claim) {
   const Expectation& expect = *claim.spec.expect;
   std::vector<double> x, y;
   for (const JudgedCell& judged : claim.cells) {
-    x.push_back(position(judged.cell, expect.along));
+    x.push_back(position(judged, expect.along));
     y.push_back(judged.cell.estimate.median);
   }
   const RankCorrelation found = rank_correlation(x, y);
   claim.measured = fmt::format("rank correlation with {} {:.2f} (p = {:.2g}) over {} cells; {}", expect.along,
                                found.rho, found.p_value, claim.cells.size(), spread_text(claim.cells));
   claim.verdict = Verdict::inconclusive;
+  if (expect.kind == Kind::unrelated) {
+    if (found.p_value < significance) claim.verdict = Verdict::does_not_hold;
+    if (found.p_value >= significance && std::fabs(found.rho) < weak_correlation && x.size() > 3)
+      claim.verdict = Verdict::holds;
+    return;
+  }
   if (found.p_value >= significance) return;
   claim.verdict = (found.rho > 0) == (expect.kind == Kind::rises) ? Verdict::holds : Verdict::does_not_hold;
 }
@@ -223,6 +243,23 @@ void judge_sameness(const Study& study, const Observations& observations, Judged
       fmt::format("the same in {} of {} cells, {} figures{}", same, claim.cells.size(), series.size(), example);
 }
 
+/// Gives each cell its second figure, or divides by it; cells without one are left out.
+void set_beside(const Study& study, const Observations& observations, JudgedClaim& claim) {
+  const Kind kind = claim.spec.expect->kind;
+  const bool divide = kind != Kind::splits && claim.spec.expect->along.empty();
+  std::vector<Cell> of;
+  for (const JudgedCell& judged : claim.cells) of.push_back(judged.cell);
+  const std::vector<std::optional<Cell>> beside = cells_beside(study, observations, *claim.spec.versus, of);
+  claim.cells.clear();
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!beside[i]) continue;
+    JudgedCell judged;
+    judged.cell = divide ? quotient(study, of[i], *beside[i]) : std::move(of[i]);
+    judged.versus = beside[i]->estimate.median;
+    claim.cells.push_back(std::move(judged));
+  }
+}
+
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
@@ -247,7 +284,8 @@ JudgedClaim judge(const Study& study, const Observations& observations, const Cl
     return claim;
   }
   const std::vector<std::string> each = spec.need == "mean" ? std::vector<std::string>() : spec.each;
-  for (Cell& cell : cells(study, observations, spec.figure, each)) claim.cells.push_back({std::move(cell)});
+  for (Cell& cell : cells(study, observations, spec.figure, each)) claim.cells.emplace_back().cell = std::move(cell);
+  if (spec.versus) set_beside(study, observations, claim);
   if (claim.cells.empty()) {
     claim.measured = "nothing of this was measured";
     return claim;
@@ -256,7 +294,7 @@ JudgedClaim judge(const Study& study, const Observations& observations, const Cl
     judge_sameness(study, observations, claim);
     return claim;
   }
-  if (spec.expect->kind == Kind::rises || spec.expect->kind == Kind::falls) {
+  if (!spec.expect->along.empty()) {
     judge_trend(claim);
     return claim;
   }

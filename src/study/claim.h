@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@ struct JudgedCell {
   /// Of the paired t-test that the figure is what the expectation is measured against, after Holm's correction over the
   /// cells of the claim; of two independent series (Welch) uncorrected. 1 where no test applies.
   double p_value = 1, welch_p_value = 1;
+  std::optional<double> versus;  ///< the second figure, where the claim has one
 };
 
 struct JudgedClaim {

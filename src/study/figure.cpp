@@ -163,6 +163,51 @@ std::vector<Cell> cells(const Study& study, const Observations& observations, co
   return out;
 }
 
+std::vector<std::optional<Cell>> cells_beside(const Study& study, const Observations& observations,
+                                              const FigureSpec& figure, const std::vector<Cell>& of) {
+  const bool with_rays = depends_on_rays(Expression::parse(figure.value));
+  std::vector<std::string> each;
+  for (const Cell& cell : of) {
+    for (const auto& [factor, level] : cell.factors) {
+      const bool of_rays = factor == "rays" || factor == "view";
+      if ((with_rays || !of_rays) && std::ranges::find(each, factor) == each.end()) each.push_back(factor);
+    }
+  }
+  const std::vector<Cell> all = cells(study, observations, figure, each);
+  std::vector<std::optional<Cell>> out;
+  for (const Cell& cell : of) {
+    const auto found = std::ranges::find_if(all, [&](const Cell& candidate) {
+      return std::ranges::all_of(candidate.factors,
+                                 [&](const auto& entry) { return cell.factors.at(entry.first) == entry.second; });
+    });
+    out.push_back(found == all.end() ? std::nullopt : std::optional(*found));
+  }
+  return out;
+}
+
+Cell quotient(const Study& study, const Cell& a, const Cell& b) {
+  struct Fraction {
+    double above, below;
+  };
+  const auto fraction = [](const Cell& cell, std::size_t repetition) {
+    const std::size_t r = repetition % cell.values.size();
+    return cell.baseline.empty() ? Fraction{cell.values[r], 1} : Fraction{cell.baseline[r], cell.values[r]};
+  };
+  const std::size_t repetitions =
+      a.exact || b.exact ? std::max(a.values.size(), b.values.size()) : std::min(a.values.size(), b.values.size());
+  Cell out = a;
+  out.exact = a.exact && b.exact;
+  out.values.clear();
+  out.baseline.clear();
+  for (std::size_t r = 0; r < repetitions; ++r) {
+    const Fraction of_a = fraction(a, r), of_b = fraction(b, r);
+    out.baseline.push_back(of_a.above * of_b.below);
+    out.values.push_back(of_a.below * of_b.above);
+  }
+  estimate(out, study.run);
+  return out;
+}
+
 std::string cell_name(const Factors& factors) {
   std::vector<std::string> parts;
   for (const auto& [factor, level] : factors) parts.push_back(factor + " " + level);

@@ -26,6 +26,14 @@ struct Cell {
 std::vector<Cell> cells(const Study& study, const Observations& observations, const FigureSpec& figure,
                         const std::vector<std::string>& each);
 
+/// The cell of `figure` that belongs to each of `of`: the one with the same levels of all factors that series of
+/// `figure` have (bytes have no kind of rays). Nothing where none was measured.
+std::vector<std::optional<Cell>> cells_beside(const Study& study, const Observations& observations,
+                                              const FigureSpec& figure, const std::vector<Cell>& of);
+
+/// a / b, repetition by repetition. A figure that is the same in every run counts for every repetition of the other.
+Cell quotient(const Study& study, const Cell& a, const Cell& b);
+
 /// "k 4, method sah"
 std::string cell_name(const Factors& factors);
 

@@ -57,6 +57,9 @@ class Observations {
   std::map<std::string, std::vector<std::string>> views_;                                   ///< by scene
 };
 
+/// Whether any metric of `value` is one of ray sets.
+bool depends_on_rays(const Expression& value);
+
 /// Whether `factors` has, for each factor in `where`, one of its levels.
 bool matches(const Factors& factors, const Where& where);
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boxwood {
@@ -68,23 +69,30 @@ struct TableSpec {
 struct PlotSpec {
   std::string id, title, kind = "line";  ///< line, bar or scatter
   FigureSpec figure;
-  std::string x;                    ///< a factor
+  std::string x;                    ///< a factor; of a scatter plot perhaps arithmetic on metrics
+  bool x_is_figure = false;         ///< x is arithmetic on metrics
   std::vector<std::string> series;  ///< factors
   std::vector<std::string> panels;  ///< factors: one small plot for each combination
-  std::string y_title;
-  bool log_y = false;
+  std::string x_title, y_title;
+  bool log_x = false, log_y = false;
+  /// Which end of x and of y is better; points that no other of their panel beats in both are then marked.
+  enum class Better { low, high };
+  std::optional<std::pair<Better, Better>> front;
 };
 
 /// What a claim expects of every cell.
 struct Expectation {
-  enum class Kind { above, below, between, differs, same, rises, falls } kind = Kind::above;
-  double low = 0, high = 0;  ///< of above, below, between
-  std::string along;         ///< of rises, falls: a factor, "triangles", or "baseline" (its figure)
+  enum class Kind { above, below, between, differs, same, rises, falls, unrelated, splits } kind = Kind::above;
+  double low = 0, high = 0;  ///< of above, below, between; of splits: limits of the figure and of what it is beside
+  /// Of rises, falls, unrelated: a factor, "triangles", "baseline" (its figure), or "versus" (that figure).
+  std::string along;
 };
 
 struct ClaimSpec {
   std::string id, text, published, note;
   FigureSpec figure;
+  /// A second figure of the same cells: the first is divided by it, or ranked along it, or compared with it.
+  std::optional<FigureSpec> versus;
   std::vector<std::string> each;      ///< factors that tell cells apart
   std::optional<Expectation> expect;  ///< none: nothing is measured, and the note says why
   std::string need = "all";           ///< "all", "any", "most", "mean" (of all cells), or a share such as "0.75"

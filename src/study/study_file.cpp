@@ -89,6 +89,7 @@ class Vocabulary {
     for (const std::string_view kind : ray_kinds()) levels_["rays"].emplace(kind);
   }
 
+  bool knows_factor(const std::string& factor) const { return factors_.contains(factor); }
   void add_scene(const std::string& name) { levels_["scene"].insert(name); }
 
   void check_factor(const TomlValue& where, const std::string& factor) const {
@@ -187,6 +188,28 @@ TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   return table;
 }
 
+/// A factor, or of scatter plots arithmetic on metrics.
+void read_x(const TomlValue& x, const Vocabulary& vocabulary, PlotSpec& plot) {
+  plot.x = x.text();
+  plot.x_is_figure = plot.kind == "scatter" && !vocabulary.knows_factor(plot.x);
+  if (plot.x_is_figure) {
+    at(x, [&] { return Expression::parse(plot.x); });
+  } else {
+    vocabulary.check_factor(x, plot.x);
+  }
+}
+
+void read_front(const TomlValue& value, PlotSpec& plot) {
+  const std::vector<std::string> ends = value.words();
+  const auto is_end = [](const std::string& word) { return word == "low" || word == "high"; };
+  if (ends.size() != 2 || !std::ranges::all_of(ends, is_end)) {
+    value.fail(R"(takes the better ends of x and y, such as ["low", "high"])");
+  }
+  if (!plot.x_is_figure) value.fail("needs a scatter plot whose x is arithmetic on metrics");
+  const auto end = [&](std::size_t i) { return ends[i] == "low" ? PlotSpec::Better::low : PlotSpec::Better::high; };
+  plot.front = {end(0), end(1)};
+}
+
 PlotSpec read_plot(const TomlValue& value, const Vocabulary& vocabulary) {
   TomlReader reader(value);
   PlotSpec plot;
@@ -194,14 +217,15 @@ PlotSpec read_plot(const TomlValue& value, const Vocabulary& vocabulary) {
   plot.title = reader.text("title", plot.id);
   plot.kind = one_of(reader, "kind", plot.kind, {"line", "bar", "scatter"});
   plot.figure = read_figure(reader, vocabulary);
-  const TomlValue& x = reader.need("x");
-  plot.x = x.text();
-  vocabulary.check_factor(x, plot.x);
+  read_x(reader.need("x"), vocabulary, plot);
   plot.series = read_factors(reader, "series", vocabulary);
   plot.panels = read_factors(reader, "panels", vocabulary);
   check_views(value, plot.figure, {plot.series, plot.panels, {plot.x}});
+  plot.x_title = reader.text("x_title", plot.x);
   plot.y_title = reader.text("y_title", plot.figure.value);
+  plot.log_x = reader.boolean("log_x", false);
   plot.log_y = reader.boolean("log_y", false);
+  if (const TomlValue* front = reader.find("front")) read_front(*front, plot);
   reader.done();
   return plot;
 }
@@ -225,10 +249,16 @@ std::optional<Expectation> read_expectation(TomlReader& reader, const Vocabulary
     if (!v->boolean()) v->fail("takes true only");
     set(*v, {Kind::same, 0, 0, {}});
   }
-  for (const auto& [key, kind] : {std::pair{"rises_with", Kind::rises}, std::pair{"falls_with", Kind::falls}}) {
+  if (const TomlValue* v = reader.find("splits_at")) {
+    if (!v->is_list() || v->list().size() != 2) v->fail("takes [limit of the figure, limit of 'versus']");
+    set(*v, {Kind::splits, v->list()[0].number(), v->list()[1].number(), {}});
+  }
+  for (const auto& [key, kind] : {std::pair{"rises_with", Kind::rises}, std::pair{"falls_with", Kind::falls},
+                                  std::pair{"unrelated_to", Kind::unrelated}}) {
     const TomlValue* v = reader.find(key);
     if (!v) continue;
-    if (v->text() != "triangles" && v->text() != "baseline") vocabulary.check_factor(*v, v->text());
+    const bool known = v->text() == "triangles" || v->text() == "baseline" || v->text() == "versus";
+    if (!known) vocabulary.check_factor(*v, v->text());
     set(*v, {kind, 0, 0, v->text()});
   }
   return found;
@@ -238,6 +268,23 @@ void check_need(const TomlValue& value, const std::string& need) {
   if (need == "all" || need == "any" || need == "most" || need == "mean") return;
   if (value.is_text()) value.fail(R"(takes "all", "any", "most", "mean", or a share of the cells such as 0.75)");
   value.number(0, 1);
+}
+
+/// The second figure, which some expectations need and equality cannot use.
+void read_versus(TomlReader& reader, const TomlValue& claim_value, const Vocabulary& vocabulary, ClaimSpec& claim) {
+  using Kind = Expectation::Kind;
+  const TomlValue* value = reader.find("versus");
+  const bool needed = claim.expect->kind == Kind::splits || claim.expect->along == "versus";
+  if (!value) {
+    if (needed) claim_value.fail("compares two figures, so it needs 'versus'");
+    return;
+  }
+  if (claim.expect->kind == Kind::same) value->fail("says nothing about whether figures are the same");
+  const bool trend = !claim.expect->along.empty();
+  if (trend && !needed) value->fail("is used by no expectation; write rises_with = \"versus\" or the like");
+  TomlReader figure(*value);
+  claim.versus = read_figure(figure, vocabulary);
+  figure.done();
 }
 
 ClaimSpec read_claim(const TomlValue& value, const Vocabulary& vocabulary) {
@@ -252,13 +299,15 @@ ClaimSpec read_claim(const TomlValue& value, const Vocabulary& vocabulary) {
     claim.figure = read_figure(reader, vocabulary);
     claim.each = read_factors(reader, "each", vocabulary);
     check_views(value, claim.figure, {claim.each});
+    read_versus(reader, value, vocabulary, claim);
     if (const TomlValue* need = reader.find("need")) {
       claim.need = need->word();
       check_need(*need, claim.need);
     }
   } else if (claim.note.empty()) {
     value.fail(
-        "needs an expectation (above, below, between, differs_from, same, rises_with, falls_with), or a "
+        "needs an expectation (above, below, between, differs_from, same, rises_with, falls_with, unrelated_to, "
+        "splits_at), or a "
         "note that says why it is not measured");
   }
   reader.done();

@@ -17,6 +17,9 @@ struct TableResult {
 struct PlotResult {
   PlotSpec spec;
   std::vector<Cell> cells;
+  // Of plots whose x is a figure, in the order of the cells:
+  std::vector<Estimate> x;
+  std::vector<bool> on_front;  ///< no other point of the panel is better in x or in y without being worse in the other
 };
 
 /// Everything a report says.

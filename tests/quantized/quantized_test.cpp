@@ -79,7 +79,12 @@ const std::vector<std::string> texts = {"quantized",
                                         "quantized(form=pointers, frame=parent)",
                                         "quantized(4)",
                                         "quantized(8, frame=parent)",
-                                        "quantized(8, chunk=128)"};
+                                        "quantized(8, chunk=128)",
+                                        "quantized(form=free)",
+                                        "quantized(4, form=free, chunk=128)",
+                                        "quantized(form=free, fill=packed)",
+                                        "quantized(form=milestones)",
+                                        "quantized(8, form=milestones)"};
 
 test::LayoutCall layout_call(const std::string& text) {
   const CallText parts = parse_call_text(text);
@@ -130,20 +135,11 @@ INSTANTIATE_TEST_SUITE_P(Each, Quantized, testing::ValuesIn(texts), [](const aut
   return name;
 });
 
-RayCounters totals(const Layout& layout, const std::vector<Ray>& rays) {
-  std::vector<Hit> hits(rays.size());
-  std::vector<RayCounters> counters(rays.size());
-  layout.closest_hits_counted(rays, hits, counters);
-  RayCounters sum;
-  for (const RayCounters& c : counters) sum += c;
-  return sum;
-}
-
 TEST(Quantized, LooserFramesCostMoreTests) {
   const Scene scene = test::soup(4000, 0.05f, 7);
   const std::vector<Ray> rays = test::troubling_rays(scene, 600, 1);
   const auto cost = [&](const test::LayoutCall& call) {
-    return totals(*test::encode_scene(scene, call, {.order = ChildOrder::axis}, 2, false), rays);
+    return test::total_cost(*test::encode_scene(scene, call, {.order = ChildOrder::axis}, 2, false), rays);
   };
   const RayCounters exact = cost(test::LayoutCall(binary_stage())),
                     parent = cost(layout_call("quantized(frame=parent)")), chunk = cost(layout_call("quantized"));
@@ -214,7 +210,8 @@ TEST(Quantized, DecodedBoxesHoldTheExactOnesAtEveryNode) {
 TEST(Quantized, OptionsThatDoNotGoTogether_AreRefused) {
   const Scene scene = test::soup(20, 0.1f, 4);
   for (const char* text : {"quantized(form=pointers)", "quantized(4, form=pointers, frame=parent)",
-                           "quantized(form=pointers, frame=parent, chunk=128)"}) {
+                           "quantized(form=pointers, frame=parent, chunk=128)", "quantized(fill=packed)",
+                           "quantized(form=free, frame=parent)", "quantized(form=milestones, chunk=128)"}) {
     EXPECT_THROW(test::encode_scene(scene, layout_call(text), {}), UsageError) << text;
   }
 }

@@ -90,7 +90,7 @@ TEST(SavedStructure, HasTheDocumentedBytes) {
   };
   EXPECT_EQ(word(16), bytes.size());
   EXPECT_EQ(word(24), 5u);  // recipe, report, facts, nodes, leaves
-  const std::uint64_t sizes[] = {std::string("median(leaf=4) > binary").size(), 48, 96, 32, 3 * 40};
+  const std::uint64_t sizes[] = {std::string("median(leaf=4) > binary").size(), 48, 128, 32, 3 * 40};
   std::uint64_t offset = 64 + 5 * 32 + 32;
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(word(64 + 32 * i), i + 1);

@@ -120,15 +120,6 @@ std::vector<Ray> bundle(std::size_t count) {
   return rays;
 }
 
-RayCounters total(const Layout& layout, const std::vector<Ray>& rays) {
-  std::vector<Hit> hits(rays.size());
-  std::vector<RayCounters> counters(rays.size());
-  layout.closest_hits_counted(rays, hits, counters);
-  RayCounters sum;
-  for (const RayCounters& c : counters) sum += c;
-  return sum;
-}
-
 TEST(SlabCounters, RecursiveAndIterativeCountTheSameAndTheTwinNeedsFewerTests) {
   const Scene scene = test::sphere(16);
   const std::vector<Ray> rays = bundle(256);
@@ -137,7 +128,7 @@ TEST(SlabCounters, RecursiveAndIterativeCountTheSameAndTheTwinNeedsFewerTests) {
     const test::LayoutCall boxes = test::LayoutCall(binary_split_stage()).set("packet", packet);
     for (const ChildOrder order : {ChildOrder::none, ChildOrder::axis}) {
       const auto cost = [&](const test::LayoutCall& call, TraversalMode mode) {
-        return total(*test::encode_scene(scene, call, {order, true, mode}, 1, false), rays);
+        return test::total_cost(*test::encode_scene(scene, call, {order, true, mode}, 1, false), rays);
       };
       const RayCounters iterative = cost(slab, TraversalMode::iterative);
       EXPECT_EQ(iterative, cost(slab, TraversalMode::recursive));
@@ -146,7 +137,7 @@ TEST(SlabCounters, RecursiveAndIterativeCountTheSameAndTheTwinNeedsFewerTests) {
     }
     const auto axis = test::encode_scene(scene, slab, {ChildOrder::axis}, 1, false);
     const auto none = test::encode_scene(scene, slab, {ChildOrder::none}, 1, false);
-    EXPECT_LT(total(*axis, rays).node_tests, total(*none, rays).node_tests);
+    EXPECT_LT(test::total_cost(*axis, rays).node_tests, test::total_cost(*none, rays).node_tests);
   }
 }
 

@@ -104,9 +104,9 @@ TEST(SlabPlanes, TheSideThatCutsMostIsTakenAndTheLastOfEqualOnes) {
 }
 
 TEST(SlabPlanes, SurfaceRatioIsOneForASingleNodeAndMoreBelow) {
-  EXPECT_EQ(slab_surface_ratio(Tree{}), 0);
-  EXPECT_EQ(slab_surface_ratio(tree_over(test::soup(1, 0.5f, 1))), 1);
-  EXPECT_GT(slab_surface_ratio(tree_over(test::soup(100, 0.2f, 1))), 1.5);
+  EXPECT_EQ(slab_fit(Tree{}).surface_ratio, 0);
+  EXPECT_EQ(slab_fit(tree_over(test::soup(1, 0.5f, 1))).surface_ratio, 1);
+  EXPECT_GT(slab_fit(tree_over(test::soup(100, 0.2f, 1))).surface_ratio, 1.5);
 }
 
 /// What single slabs guarantee of every node.
@@ -146,7 +146,7 @@ TEST(SlabPlanes, SurfaceRatioIsNoArtefactOfRounding) {
   long double sum = 0;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) sum += surface(regions[i]) / surface(tree.nodes[i].bounds);
   const auto exact = static_cast<double>(sum / static_cast<long double>(tree.nodes.size()));
-  EXPECT_NEAR(slab_surface_ratio(tree) / exact, 1, 1e-5);
+  EXPECT_NEAR(slab_fit(tree).surface_ratio / exact, 1, 1e-5);
 }
 
 TEST(SlabPlanes, AtLeastHalfOfBothChildrensSidesLieInTheParents) {

@@ -145,6 +145,37 @@ TEST(Claim, Trend_FollowsTheRanks) {
   EXPECT_EQ(judge_with(along + "rises_with = \"triangles\"", by_k).verdict, Verdict::inconclusive);
 }
 
+TEST(Claim, Versus_DividesByTheSecondFigure) {
+  // k = 8 is 1.5 times as slow as k = 2, k = 4 1.25 times as fast: together 1.875.
+  const std::string versus = "versus = { value = \"trace_ms\", where = { k = 8 }, baseline = { k = 2 } }\n";
+  const JudgedClaim claim = judge_with(of_four + versus + "above = 1.8", usual);
+  EXPECT_EQ(claim.verdict, Verdict::holds) << claim.measured;
+  ASSERT_EQ(claim.cells.size(), 4u);
+  for (const JudgedCell& judged : claim.cells) EXPECT_NEAR(judged.cell.estimate.median, 1.875, 0.05);
+  // A figure that does not depend on the rays, and is the same in every run.
+  const JudgedClaim of_hits = judge_with(
+      "where = { k = 4 }\neach = [\"scene\", \"rays\"]\nversus = { value = \"hits\", where = { k = 4 } }\nbetween = "
+      "[1.5, 1.7]",
+      usual);
+  EXPECT_EQ(of_hits.verdict, Verdict::holds) << of_hits.measured;  // 8 ms over 5 hits
+}
+
+TEST(Claim, Versus_IsWhatTrendsFollowAndSidesAreComparedWith) {
+  const std::string each = "each = [\"scene\", \"method\", \"k\"]\n";
+  const std::string hits = "versus = { value = \"hits\" }\n";
+  // Five hits for k = 2 and 4, seven for k = 8, which is the slowest.
+  EXPECT_EQ(judge_with(each + hits + "rises_with = \"versus\"", usual).verdict, Verdict::holds);
+  EXPECT_EQ(judge_with(each + hits + "falls_with = \"versus\"", usual).verdict, Verdict::does_not_hold);
+  EXPECT_EQ(judge_with(each + hits + "unrelated_to = \"versus\"", usual).verdict, Verdict::does_not_hold);
+  EXPECT_EQ(judge_with(each + hits + "splits_at = [12, 6]", usual).verdict, Verdict::holds);
+  EXPECT_EQ(judge_with(each + hits + "splits_at = [9, 6]\nneed = 0.6", usual).verdict, Verdict::holds);
+  EXPECT_EQ(judge_with(each + hits + "splits_at = [9, 6]\nneed = 0.7", usual).verdict, Verdict::does_not_hold);
+  const auto by_method = [](const std::string&, const RecipeSpec& recipe, int r) {
+    return (recipe.factors.at("method") == "median" ? 3 : 4) * noise(r, recipe.text.size());
+  };
+  EXPECT_EQ(judge_with(each + hits + "unrelated_to = \"versus\"", by_method).verdict, Verdict::holds);
+}
+
 TEST(Claim, WithoutMeasurements_IsNotRun) {
   const JudgedClaim claim = judge_with(of_four + "above = 1", usual, 0);
   EXPECT_EQ(claim.verdict, Verdict::not_run);

@@ -38,6 +38,14 @@ id = "times"
 value = "trace_ms + build_ms"
 rows = ["scene"]
 columns = ["layout", "rays"]
+[[plot]]
+id = "plane"
+kind = "scatter"
+value = "node_tests"
+x = "bytes / primitives"
+front = ["low", "low"]
+series = ["layout"]
+panels = ["scene", "rays"]
 [[claim]]
 id = "A"
 text = "both answer alike"
@@ -83,6 +91,24 @@ TEST(RunStudy, MeasuresEverythingOnce) {
   EXPECT_EQ(result.claims[0].verdict, Verdict::holds) << result.claims[0].measured;
   EXPECT_EQ(result.claims[1].verdict, Verdict::holds) << result.claims[1].measured;
   EXPECT_TRUE(result.claims[1].cells[0].cell.exact);
+  const PlotResult& plane = result.plots.at(0);
+  ASSERT_EQ(plane.cells.size(), 8u);
+  ASSERT_EQ(plane.x.size(), 8u);
+  std::size_t on_front = 0;
+  for (std::size_t i = 0; i < plane.cells.size(); ++i) {
+    bool beaten = false;
+    for (std::size_t j = 0; j < plane.cells.size(); ++j) {
+      const auto panel = [&](std::size_t cell) {
+        return std::pair(plane.cells[cell].factors.at("scene"), plane.cells[cell].factors.at("rays"));
+      };
+      const double dx = plane.x[i].median - plane.x[j].median;
+      const double dy = plane.cells[i].estimate.median - plane.cells[j].estimate.median;
+      beaten = beaten || (panel(i) == panel(j) && dx >= 0 && dy >= 0 && dx + dy > 0);
+    }
+    EXPECT_EQ(plane.on_front[i], !beaten) << cell_name(plane.cells[i].factors);
+    on_front += plane.on_front[i] ? 1 : 0;
+  }
+  EXPECT_GE(on_front, 4u);                     // one of each panel at least
   EXPECT_EQ(result.pictures.size(), 2u * 2u);  // of each scene a rendering and a heat map
   for (const StoredPicture& picture : result.pictures) EXPECT_EQ(picture.png.at(1), 'P');
 

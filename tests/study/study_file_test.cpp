@@ -88,6 +88,7 @@ TEST_P(StudyMistake, IsRefusedWithItsPlace) {
   }
 }
 
+const std::string plot = head + two_recipes + "[[plot]]\nid = \"P\"\nvalue = \"trace_ms\"\n";
 const std::string claim = head + two_recipes + "[[claim]]\nid = \"A\"\ntext = \"t\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -110,7 +111,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nwhere = { kk = 4 }", "'k'"},
                       Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nwhere = { k = 3 }", "knows no k '3'"},
                       Mistake{claim + "above = 1\nvalue = \"trace_ms\"\nneed = \"lots\"", "most"},
-                      Mistake{claim + "above = 1\nvalue = \"trace_ms\"\neach = [\"view\"]", "views = \"each\""}));
+                      Mistake{claim + "above = 1\nvalue = \"trace_ms\"\neach = [\"view\"]", "views = \"each\""},
+                      Mistake{claim + "splits_at = [1, 2]\nvalue = \"trace_ms\"", "needs 'versus'"},
+                      Mistake{claim + "rises_with = \"k\"\nvalue = \"trace_ms\"\nversus = { value = \"hits\" }",
+                              "used by no expectation"},
+                      Mistake{plot + "x = \"bytez\"\nkind = \"scatter\"", "'bytes'"},
+                      Mistake{plot + "x = \"bytes\"", "no factor 'bytes'"},
+                      Mistake{plot + "x = \"bytes\"\nkind = \"scatter\"\nfront = [\"low\"]", "better ends"},
+                      Mistake{plot + "x = \"k\"\nkind = \"scatter\"\nfront = [\"low\", \"high\"]", "arithmetic"}));
 
 TEST(StudyFile, ThatIsNotThere_IsNamed) { EXPECT_THROW(read_study("no-such-study.toml"), Error); }
 

@@ -48,4 +48,14 @@ inline std::shared_ptr<const Layout> encode_scene(const Scene& scene, const Layo
   return call.stage.encode(call.options, split_tree(boxes, {split.k, 1, marks}), contents, trace);
 }
 
+/// What the closest hits of all rays cost together.
+inline RayCounters total_cost(const Layout& layout, const std::vector<Ray>& rays) {
+  std::vector<Hit> hits(rays.size());
+  std::vector<RayCounters> counters(rays.size());
+  layout.closest_hits_counted(rays, hits, counters);
+  RayCounters sum;
+  for (const RayCounters& c : counters) sum += c;
+  return sum;
+}
+
 }  // namespace boxwood::test

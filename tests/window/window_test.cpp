@@ -100,12 +100,19 @@ TEST_F(Window, ComparesWalksARayAndPlaysASequence) {
   const test::WindowSession session(
       {scene_name, "generate:sphereflake(depth=1)", "--samples", "1", "-a", "sweep > slab", "-a", "binned > wide(8)"});
   ASSERT_TRUE(session.press("p", "picture saved")) << session.output();
-  EXPECT_EQ(read_png(file_with(session.folder(), ".second.png")).width, 640 / 3);
+  // The panel has a column of its own, of three tenths.
+  EXPECT_EQ(read_png(file_with(session.folder(), ".second.png")).width, (640 - 192) / 3);
   const Bytes difference = read_png(file_with(session.folder(), ".difference.png"));
   EXPECT_EQ(std::ranges::count(difference.rgb, 0), static_cast<std::ptrdiff_t>(difference.rgb.size()));
-  // In the second picture, beside the panel.
+  // In the second picture.
   session.tell("mousemove 418 300 click 1");
   EXPECT_TRUE(test::wait_until([&] { return session.said("node tests"); })) << session.output();
+  session.tell("key u");
+  ASSERT_TRUE(session.press("p", "picture saved")) << session.output();
+  EXPECT_TRUE(test::wait_until([&] {
+    session.press("p", "picture saved");
+    return read_png(file_with(session.folder(), ".second.png")).width == 640 / 3;
+  })) << "without the panel the pictures have all of the window";
   session.tell("key b key m key h key c");
   session.tell("key f");
   EXPECT_TRUE(session.press("k", "window saved")) << session.output();
@@ -119,6 +126,16 @@ TEST(WithoutAScreen, OneSentenceSaysSo) {
   fs::remove(output);
   EXPECT_NE(text.find("no display"), std::string::npos) << text;
   EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
+}
+
+TEST_F(Window, TimesBothWaysToTheScreen) {
+  const fs::path output = fs::temp_directory_path() / ("boxwood-transfer-" + std::to_string(getpid()));
+  test::Child run({"xvfb-run", "-a", BOXWOOD_VIEWER, "--time-transfers", "--size", "64x64"}, output, ":0");
+  const int result = run.result();
+  const std::string text = test::text_of(output);
+  fs::remove(output);
+  EXPECT_EQ(result, 0) << text;
+  EXPECT_NE(text.find("by pixel buffer"), std::string::npos) << text;
 }
 
 TEST(WithoutAScreen, BadUsageIsExitCodeTwo) {

@@ -7,7 +7,7 @@
 namespace boxwood::viewer {
 
 std::span<const KeyBinding> key_bindings() {
-  static constexpr std::array<KeyBinding, 23> table{{
+  static constexpr std::array<KeyBinding, 24> table{{
       {'w', Action::forward, "move forward"},
       {'s', Action::back, "move back"},
       {'a', Action::left, "move left"},
@@ -30,6 +30,7 @@ std::span<const KeyBinding> key_bindings() {
       {' ', Action::play, "play or stop the sequence"},
       {'f', Action::next_frame, "next frame of the sequence"},
       {'x', Action::reset_camera, "back to the first view"},
+      {'u', Action::panel, "hide or show the panel"},
       {'h', Action::help, "this help"},
   }};
   return table;

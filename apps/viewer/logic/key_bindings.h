@@ -28,6 +28,7 @@ enum class Action {
   play,
   next_frame,
   reset_camera,
+  panel,
   help,
 };
 

@@ -13,7 +13,7 @@ Kernels<BinaryNodes, InstanceLeaves> kernels_of(const Level<BinaryNodes, Instanc
 }
 
 /// Nodes in depth-first order are each reached once, in the order in which they stand, or the tree is damaged.
-std::string damage_in(const SavedLevel& level) {
+std::string binary_damage(const SavedLevel& level) {
   const auto nodes = elements_of<BinaryNode>(level.nodes, "nodes");
   const std::size_t leaves = leaf_entries(level);
   if (nodes.empty()) return leaves == 0 ? std::string() : "it has leaves but no nodes";
@@ -44,7 +44,7 @@ std::string damage_in(const SavedLevel& level) {
   return second_children.empty() ? std::string() : "its last nodes are missing";
 }
 
-std::shared_ptr<const Layout> restore(const SavedLevel& level, const TraceOptions& trace) {
+std::shared_ptr<const Layout> restore_binary(const SavedLevel& level, const TraceOptions& trace) {
   const auto saved = elements_of<BinaryNode>(level.nodes, "nodes");
   BinaryNodes nodes{{saved.begin(), saved.end()}};
   return kernel_layout_of(std::move(nodes), level, trace,
@@ -53,6 +53,6 @@ std::shared_ptr<const Layout> restore(const SavedLevel& level, const TraceOption
 
 }  // namespace
 
-SavedKindEntry saved_binary() { return {SavedKind::binary, damage_in, restore}; }
+SavedKindEntry saved_binary() { return {SavedKind::binary, binary_damage, restore_binary}; }
 
 }  // namespace boxwood

@@ -150,6 +150,10 @@ template <class Node>
 QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   QuantizedArena out;
   Encoder<Node>(tree, out).run();
+  if (!tree.empty()) {
+    out.shape = {out.nodes.bytes() / sizeof(Node) - (tree.nodes[0].is_leaf() ? 1 : 2), out.nodes.bytes(),
+                 sizeof(Node::planes[0]), std::max<std::size_t>(tree.nodes.size() - 1, 1), tree.references.size()};
+  }
   out.view.base = out.nodes.data();
   out.view.root = 2;
   out.view.reach = tree.empty() ? 0 : reach_of_box(tree.nodes[0].bounds);

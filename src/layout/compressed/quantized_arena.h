@@ -16,8 +16,10 @@ struct QuantizedArena {
   Arena nodes;
   std::vector<std::uint32_t> primitives;
   WideView view;
+  WideShape shape;
 
   std::size_t bytes() const { return nodes.bytes() + primitives.capacity() * sizeof(std::uint32_t); }
+  std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
 };
 
 /// Whether names of nodes and of primitives fit 31 bits, of which references use the rest. O(1).

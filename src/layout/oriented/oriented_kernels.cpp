@@ -5,32 +5,24 @@
 #include <hwy/foreach_target.h>
 //
 #include <cmath>
-#include <cstring>
 
 #include "layout/oriented/oriented_nodes.h"
+#include "layout/rows-inl.h"
 #include "layout/walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-/// A slot is the place of a link in memory, in units of a link's size.
-///
 /// In a turned frame the same t belongs to the same point, but more is rounded. With u = 2^-24 and m the largest
 /// coordinate involved: a triangle's hit is within 17 u m of the ray (see PreparedRay), 30 u m in a frame whose rows
 /// have absolute sums below sqrt(3); turning the origin and the direction, itself the reciprocal of a reciprocal, adds
 /// 5 and 9 u m; the box test on coordinates up to sqrt(3) m adds 12 u m. Boxes are widened by 128 u m, twice all that.
-class OrientedTester {
+class OrientedTester : public RowReader<OrientedNodes> {
  public:
-  using Slot = std::uint32_t;
-
-  OrientedTester(const OrientedNodes& nodes, const PreparedRay& ray) : nodes_(nodes), memory_(nodes.memory.data()) {
+  OrientedTester(const OrientedNodes& nodes, const PreparedRay& ray) : RowReader(nodes), world_(ray, nodes.k) {
     float magnitude = 0x1p-26f;
     for (int axis = 0; axis < 3; ++axis) {
-      world_.inverse[axis] = ray.inverse[axis];
-      world_.near_offset[axis] = ray.near_offset[axis];
-      world_.far_offset[axis] = ray.far_offset[axis];
-      world_.set_planes(axis, ray.negative[axis], nodes.k);
       origin_[axis] = ray.origin[axis];
       direction_[axis] = 1.0f / ray.inverse[axis];
       const float size = std::fabs(direction_[axis]);
@@ -41,14 +33,6 @@ class OrientedTester {
     bound_ = magnitude * 0x1p-17f;
   }
 
-  const Box& root_box() const { return nodes_.root_box; }
-  std::uint32_t root_slot() const { return 0; }
-  const Link& root_link() const { return nodes_.root; }
-  HWY_INLINE Link link(std::uint32_t slot) const {
-    Link link;
-    std::memcpy(static_cast<void*>(&link), memory_ + std::size_t{slot} * 2, sizeof link);
-    return link;
-  }
   /// What the walk asks first of a node that it opens: the ray is turned here, once for all children.
   HWY_INLINE std::uint32_t children(const Link& link) const {
     node_ = memory_ + place_of(link);
@@ -63,30 +47,10 @@ class OrientedTester {
     return (link.first >> 1) * static_cast<std::uint32_t>(oriented_unit / 2) + 3 * nodes_.k + child;
   }
   HWY_INLINE bool test(std::uint32_t, const Link&, std::uint32_t child, float from, float limit, float& t) const {
-    float entry = from, exit = limit;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float t0 = fused(node_[ray_->near_plane[axis] + child], ray_->inverse[axis], -ray_->near_offset[axis]);
-      const float t1 = fused(node_[ray_->far_plane[axis] + child], ray_->inverse[axis], -ray_->far_offset[axis]);
-      entry = t0 > entry ? t0 : entry;
-      exit = t1 < exit ? t1 : exit;
-    }
-    t = entry;
-    return entry <= exit;
+    return ray_->test(node_ + child, from, limit, t);
   }
 
  private:
-  /// A ray in some frame, with the places of its near and far planes in a node.
-  struct FramedRay {
-    float inverse[3];
-    float near_offset[3], far_offset[3];
-    std::uint32_t near_plane[3], far_plane[3];
-
-    HWY_INLINE void set_planes(int axis, int negative, std::uint32_t k) {
-      near_plane[axis] = static_cast<std::uint32_t>(axis + 3 * negative) * k;
-      far_plane[axis] = static_cast<std::uint32_t>(axis + 3 * (1 - negative)) * k;
-    }
-  };
-
   HWY_INLINE void turn(const float* frame) const {
     const float least = largest_ * 1e-9f;
     for (int axis = 0; axis < 3; ++axis, frame += 4) {
@@ -103,15 +67,13 @@ class OrientedTester {
     }
   }
 
-  const OrientedNodes& nodes_;
-  const float* memory_;
-  FramedRay world_;
+  RowRay world_;
   float origin_[3], direction_[3];
   float largest_ = 0, bound_ = 0;
   // Of the node opened last.
   mutable const float* node_ = nullptr;
-  mutable const FramedRay* ray_ = nullptr;
-  mutable FramedRay turned_;
+  mutable const RowRay* ray_ = nullptr;
+  mutable RowRay turned_;
 };
 
 Kernels<OrientedNodes, TriangleLeaves> choose_oriented_over_triangles(const TraceOptions& options) {

@@ -52,9 +52,29 @@ struct NodeInfo {
 };
 static_assert(sizeof(NodeInfo) == 7);
 
-/// One bit per node in chunks of one subtree each, with keys beside them. Nodes have `k` children; where there are
-/// fewer, absent ones, leaves without references whose key no ray meets, fill up.
+/// 64 bits of one long field, how many ones come before them, and the union of the boxes of their nodes: 40 bytes, 5
+/// bits per node (spec 004, section 7.2). 36-39 unused.
+struct QuantizedMilestone {
+  Box box;
+  std::uint64_t bits = 0;
+  std::uint32_t ones_before = 0, unused = 0;
+};
+static_assert(sizeof(QuantizedMilestone) == 40);
+
+enum class QuantizedForm : std::uint8_t {
+  chunks,      ///< one bit per node in chunks of one subtree each, filled breadth first
+  free,        ///< two bits per node: chunks are filled with whichever parts of the subtree are chosen
+  milestones,  ///< one bit per node in one field, with a count of ones and a frame every 64 bits
+  pointers     ///< nodes of 16 bytes
+};
+
+/// One or two bits per node with keys beside them. Nodes have `k` children; where there are fewer, absent ones, leaves
+/// without references whose key no ray meets, fill up. Memory:
+///   chunks       C chunks of S bytes:  ChunkHeader, then bits[S-40]
+///   free         C chunks of S bytes:  ChunkHeader, then here[(S-40)/2], elsewhere[(S-40)/2]
+///   milestones   QuantizedMilestone for each 64 nodes
 struct QuantizedChunks {
+  QuantizedForm form = QuantizedForm::chunks;
   std::uint32_t k = 2;
   std::uint32_t chunk_bytes = 64;
   std::uint32_t groups = 0;  ///< a chunk has room for
@@ -75,16 +95,17 @@ struct QuantizedChunks {
   std::vector<LayoutFact> facts() const;
 };
 
-enum class QuantizedForm : std::uint8_t { chunks, pointers };
 enum class QuantizedFrame : std::uint8_t { chunk, parent };
 enum class QuantizedChunkBytes : std::uint8_t { b64, b128 };
 enum class QuantizedArity : std::uint8_t { k2, k4, k8 };
+enum class QuantizedFill : std::uint8_t { visits, packed };
 
 struct QuantizedOptions {
   QuantizedArity k = QuantizedArity::k2;
   QuantizedForm form = QuantizedForm::chunks;
   QuantizedFrame frame = QuantizedFrame::chunk;
   QuantizedChunkBytes chunk = QuantizedChunkBytes::b64;
+  QuantizedFill fill = QuantizedFill::visits;
 
   std::uint32_t arity() const { return 2u << static_cast<std::uint32_t>(k); }
   std::uint32_t chunk_bytes() const { return 64u << static_cast<std::uint32_t>(chunk); }
@@ -101,6 +122,10 @@ Kernels<QuantizedPointers, TriangleLeaves> quantized_pointer_triangle_kernels(co
 Kernels<QuantizedPointers, InstanceLeaves> quantized_pointer_instance_kernels(const TraceOptions& trace);
 Kernels<QuantizedChunks, TriangleLeaves> quantized_chunk_triangle_kernels(const TraceOptions& trace);
 Kernels<QuantizedChunks, InstanceLeaves> quantized_chunk_instance_kernels(const TraceOptions& trace);
+Kernels<QuantizedChunks, TriangleLeaves> quantized_free_triangle_kernels(const TraceOptions& trace);
+Kernels<QuantizedChunks, InstanceLeaves> quantized_free_instance_kernels(const TraceOptions& trace);
+Kernels<QuantizedChunks, TriangleLeaves> quantized_milestone_triangle_kernels(const TraceOptions& trace);
+Kernels<QuantizedChunks, InstanceLeaves> quantized_milestone_instance_kernels(const TraceOptions& trace);
 Kernels<QuantizedChunks, TriangleLeaves> quantized_parent_triangle_kernels(const TraceOptions& trace);
 Kernels<QuantizedChunks, InstanceLeaves> quantized_parent_instance_kernels(const TraceOptions& trace);
 

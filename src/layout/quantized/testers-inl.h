@@ -6,6 +6,7 @@
 #define BOXWOOD_LAYOUT_QUANTIZED_TESTERS_INL_H
 #endif
 
+#include <cstddef>
 #include <cstring>
 
 #include "layout/bits/rank.h"
@@ -24,6 +25,11 @@ HWY_INLINE Link quantized_link(std::uint8_t axis, std::uint32_t first, std::uint
   link.axis = axis & 3;
   link.fixed_order = axis >> 2 & 1;
   return link;
+}
+
+HWY_INLINE Link numbered_leaf(const QuantizedChunks& nodes, std::uint32_t number) {
+  const std::uint32_t* const offsets = nodes.leaf_offsets.data() + number;
+  return quantized_link(Tree::mixed_axis, offsets[0], offsets[1] - offsets[0], true);
 }
 
 /// A node and its box as decoded, which its children's keys are relative to. Not initialized when declared, so that a
@@ -67,7 +73,8 @@ class PointerTester {
   const PreparedRay& ray_;
 };
 
-/// Finds chunks, bits and links from places.
+/// Finds chunks, bits and links from places. With `two_bits`, of form `free`.
+template <bool two_bits>
 class ChunkReader {
  public:
   explicit ChunkReader(const QuantizedChunks& nodes)
@@ -85,6 +92,11 @@ class ChunkReader {
     std::memcpy(&header, chunk, sizeof header);
     return header;
   }
+  HWY_INLINE Box frame(std::uint32_t place) const {
+    Box box;
+    std::memcpy(static_cast<void*>(&box), chunk_of(place), sizeof box);
+    return box;
+  }
   HWY_INLINE const NodeInfo& info(std::uint32_t place) const {
     return infos_[header(chunk_of(place)).first_node + bit_of(place)];
   }
@@ -99,17 +111,26 @@ class ChunkReader {
     const ChunkHeader head = header(chunk);
     const std::uint32_t bit = bit_of(place);
     const std::uint32_t rank = rank_before<std::uint64_t>(bits, bit);
-    if (!test_bit(bits, bit)) {
-      const std::uint32_t* const offsets = nodes_.leaf_offsets.data() + head.first_leaf + bit - rank;
-      return quantized_link(Tree::mixed_axis, offsets[0], offsets[1] - offsets[0], true);
+    std::uint32_t inner_before = rank, first;
+    bool inner = test_bit(bits, bit);
+    if constexpr (two_bits) {
+      const std::byte* const elsewhere = bits + (nodes_.chunk_bytes - std::uint32_t{sizeof(ChunkHeader)}) / 2;
+      const std::uint32_t rank_elsewhere = rank_before<std::uint64_t>(elsewhere, bit);
+      first = inner ? children_here(place, rank) : (head.child_chunks + rank_elsewhere) << bit_bits_;
+      inner = inner || test_bit(elsewhere, bit);
+      inner_before += rank_elsewhere;
+    } else {
+      first = rank < nodes_.groups - 1 ? children_here(place, rank)
+                                       : (head.child_chunks + rank - (nodes_.groups - 1)) << bit_bits_;
     }
-    const std::uint32_t first = rank < nodes_.groups - 1
-                                    ? (place >> bit_bits_ << bit_bits_ | nodes_.k * (rank + 1))
-                                    : (head.child_chunks + rank - (nodes_.groups - 1)) << bit_bits_;
+    if (!inner) return numbered_leaf(nodes_, head.first_leaf + bit - inner_before);
     return quantized_link(infos_[head.first_node + bit].axis, first, nodes_.k, false);
   }
 
  private:
+  HWY_INLINE std::uint32_t children_here(std::uint32_t place, std::uint32_t rank) const {
+    return place >> bit_bits_ << bit_bits_ | nodes_.k * (rank + 1);
+  }
   HWY_INLINE std::uint32_t bit_of(std::uint32_t place) const { return place & ((1u << bit_bits_) - 1); }
 
   const QuantizedChunks& nodes_;
@@ -117,29 +138,66 @@ class ChunkReader {
   const NodeInfo* infos_;
 };
 
-/// Keys relative to the chunk's root: every box can be decoded alone.
-class ChunkFrameTester {
+/// Finds bits and links in one field with milestones. A place is the number of a bit.
+class MilestoneReader {
+ public:
+  explicit MilestoneReader(const QuantizedChunks& nodes)
+      : nodes_(nodes), memory_(nodes.memory.data()), infos_(nodes.infos.data()) {}
+
+  static constexpr std::uint32_t root_place = ~std::uint32_t{0};
+
+  const QuantizedChunks& nodes() const { return nodes_; }
+  std::uint32_t k() const { return nodes_.k; }
+  HWY_INLINE const NodeInfo& info(std::uint32_t place) const { return infos_[place]; }
+  HWY_INLINE Box frame(std::uint32_t place) const {
+    Box box;
+    std::memcpy(static_cast<void*>(&box), memory_ + place / 64 * sizeof(QuantizedMilestone), sizeof box);
+    return box;
+  }
+  HWY_INLINE Link link(std::uint32_t place) const {
+    if (place == root_place) return nodes_.root;
+    const std::byte* const at = memory_ + place / 64 * sizeof(QuantizedMilestone);
+    std::uint64_t bits;
+    std::uint32_t ones;
+    std::memcpy(&bits, at + offsetof(QuantizedMilestone, bits), sizeof bits);
+    std::memcpy(&ones, at + offsetof(QuantizedMilestone, ones_before), sizeof ones);
+    const std::uint32_t rank = ones + count_ones(bits & ((std::uint64_t{1} << place % 64) - 1));
+    if ((bits >> place % 64 & 1) == 0) return numbered_leaf(nodes_, place - rank);
+    return quantized_link(infos_[place].axis, nodes_.k * (rank + 1), nodes_.k, false);
+  }
+
+ private:
+  const QuantizedChunks& nodes_;
+  const std::byte* memory_;
+  const NodeInfo* infos_;
+};
+
+/// Keys relative to a box that the reader finds, its chunk's root or its run's union: every box can be decoded alone.
+template <class Reader>
+class FrameTester {
  public:
   using Slot = std::uint32_t;
-  ChunkFrameTester(const QuantizedChunks& nodes, const PreparedRay& ray) : reader_(nodes), ray_(ray) {}
+  FrameTester(const QuantizedChunks& nodes, const PreparedRay& ray) : reader_(nodes), ray_(ray) {}
 
   const Box& root_box() const { return reader_.nodes().root_box; }
-  static constexpr Slot root_slot() { return ChunkReader::root_place; }
+  static constexpr Slot root_slot() { return Reader::root_place; }
   const Link& root_link() const { return reader_.nodes().root; }
   HWY_INLINE Link link(Slot slot) const { return reader_.link(slot); }
   std::uint32_t children(const Link&) const { return reader_.k(); }
   HWY_INLINE static Slot slot_of(Slot, const Link& link, std::uint32_t child) { return link.first + child; }
   HWY_INLINE bool test(Slot slot, const Link& link, std::uint32_t child, float from, float limit, float& t) const {
     const Slot place = slot_of(slot, link, child);
-    Box frame;
-    std::memcpy(static_cast<void*>(&frame), reader_.chunk_of(place), sizeof frame);
-    return hit_box(decode(reader_.info(place).key, frame), ray_, from, limit, t);
+    return hit_box(decode(reader_.info(place).key, reader_.frame(place)), ray_, from, limit, t);
   }
 
  private:
-  ChunkReader reader_;
+  Reader reader_;
   const PreparedRay& ray_;
 };
+
+using ChunkFrameTester = FrameTester<ChunkReader<false>>;
+using FreeFrameTester = FrameTester<ChunkReader<true>>;
+using MilestoneFrameTester = FrameTester<MilestoneReader>;
 
 /// Keys relative to the parent's box as decoded, in a chunk's first group to the chunk's root.
 class ParentFrameTester {
@@ -148,16 +206,13 @@ class ParentFrameTester {
   ParentFrameTester(const QuantizedChunks& nodes, const PreparedRay& ray) : reader_(nodes), ray_(ray) {}
 
   const Box& root_box() const { return reader_.nodes().root_box; }
-  Slot root_slot() const { return Slot::make(ChunkReader::root_place, root_box()); }
+  Slot root_slot() const { return Slot::make(ChunkReader<false>::root_place, root_box()); }
   const Link& root_link() const { return reader_.nodes().root; }
   HWY_INLINE Link link(const Slot& slot) const { return reader_.link(slot.place); }
   std::uint32_t children(const Link&) const { return reader_.k(); }
   HWY_INLINE Slot slot_of(const Slot& slot, const Link& link, std::uint32_t child) const {
     const std::uint32_t place = link.first + child;
-    Box frame = slot.box();
-    if (reader_.leads_elsewhere(slot.place, place)) {
-      std::memcpy(static_cast<void*>(&frame), reader_.chunk_of(place), sizeof frame);
-    }
+    const Box frame = reader_.leads_elsewhere(slot.place, place) ? reader_.frame(place) : slot.box();
     return Slot::make(place, decode(reader_.info(place).key, frame));
   }
   HWY_INLINE bool test(const Slot& slot, const Link& link, std::uint32_t child, float from, float limit,
@@ -166,7 +221,7 @@ class ParentFrameTester {
   }
 
  private:
-  ChunkReader reader_;
+  ChunkReader<false> reader_;
   const PreparedRay& ray_;
 };
 

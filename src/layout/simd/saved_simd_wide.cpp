@@ -13,12 +13,14 @@ namespace {
 struct KeptArena {
   std::span<const std::byte> memory;
   std::shared_ptr<const void> owner;
-  SavedFacts facts;
+  SavedFacts saved;
   WideView view;
+  WideShape shape;
 
   std::size_t bytes() const { return memory.size(); }
+  std::vector<LayoutFact> facts() const { return wide_facts(shape, bytes()); }
   void save(SavedLevel& out) const {
-    out.facts = facts;
+    out.facts = saved;
     out.nodes = memory;
   }
 };
@@ -26,9 +28,9 @@ struct KeptArena {
 /// Walks everything from the root; each granule of the arena may belong to one thing only, so the walk ends and so do
 /// all others.
 template <int N, int L>
-class Check {
+class ArenaCheck {
  public:
-  explicit Check(const SavedLevel& level)
+  explicit ArenaCheck(const SavedLevel& level)
       : memory_(level.nodes), facts_(level.facts), taken_(level.nodes.size() / wide_granule) {}
 
   std::string run() {
@@ -121,15 +123,16 @@ auto with_shape(const SavedFacts& facts, const Use& use) {
                           facts.children, facts.block));
 }
 
-std::string damage_in(const SavedLevel& level) {
+std::string simd_wide_damage(const SavedLevel& level) {
   if (!level.leaves.empty() || level.facts.instances) return "it has leaves where none belong";
-  return with_shape(level.facts, [&]<int N, int L>() { return Check<N, L>(level).run(); });
+  return with_shape(level.facts, [&]<int N, int L>() { return ArenaCheck<N, L>(level).run(); });
 }
 
-std::shared_ptr<const Layout> restore(const SavedLevel& level, const TraceOptions& trace) {
+std::shared_ptr<const Layout> restore_simd_wide(const SavedLevel& level, const TraceOptions& trace) {
   const SavedFacts& facts = level.facts;
   if (trace != TraceOptions{}) throw Error("it is to be walked in a way that its nodes are not made for");
-  if (level.nodes.size() % wide_granule != 0 || level.nodes.size() < 64 || facts.stack > wide_stack_limit) {
+  if (facts.nodes > level.nodes.size() / 64 || level.nodes.size() % wide_granule != 0 || level.nodes.size() < 64 ||
+      facts.stack > wide_stack_limit) {
     throw Error("its nodes end within one");
   }
   WideView view;
@@ -139,13 +142,14 @@ std::shared_ptr<const Layout> restore(const SavedLevel& level, const TraceOption
   view.stack = facts.stack;
   view.out_of_cache = facts.out_of_cache != 0;
   return with_shape(facts, [&]<int N, int L>() -> std::shared_ptr<const Layout> {
-    return std::make_shared<SimdLayout<KeptArena>>(KeptArena{level.nodes, level.owner, facts, view},
+    const WideShape shape{facts.nodes, facts.nodes * sizeof(WideNode<N>), N, facts.inner_children, facts.triangles};
+    return std::make_shared<SimdLayout<KeptArena>>(KeptArena{level.nodes, level.owner, facts, view, shape},
                                                    wide_kernels<N, L>());
   });
 }
 
 }  // namespace
 
-SavedKindEntry saved_simd_wide() { return {SavedKind::simd_wide, damage_in, restore}; }
+SavedKindEntry saved_simd_wide() { return {SavedKind::simd_wide, simd_wide_damage, restore_simd_wide}; }
 
 }  // namespace boxwood

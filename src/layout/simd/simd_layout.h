@@ -9,7 +9,7 @@
 
 namespace boxwood {
 
-/// `Memory` holds the encoded tree: a `view` of it and how many `bytes()` it has.
+/// `Memory` holds the encoded tree: a `view` of it, how many `bytes()` it has and `facts()` about them.
 template <class Memory>
 class SimdLayout final : public Layout {
  public:
@@ -46,6 +46,7 @@ class SimdLayout final : public Layout {
     }
     return {};
   }
+  std::vector<LayoutFact> facts() const override { return memory_.facts(); }
 
  private:
   Memory memory_;

@@ -30,6 +30,7 @@ class Placement {
   }
 
   std::size_t bytes() const { return bytes_; }
+  std::size_t inner_nodes() const { return inner_nodes_; }
   /// Byte offset of a node, or of a leaf's first block.
   std::size_t place(std::size_t node) const { return places_[node] * cache_granule; }
 
@@ -52,6 +53,7 @@ class Placement {
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {
       const Tree::Node& node = tree_.nodes[i];
       if (node.is_leaf()) continue;
+      ++inner_nodes_;
       std::size_t size = cluster_bytes(node) / cache_granule;
       for (std::uint32_t c = 0; c < node.count; ++c) size += places_[node.first + c];
       places_[i] = size;
@@ -96,7 +98,7 @@ class Placement {
 
   const Tree& tree_;
   std::vector<std::size_t> places_;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0, inner_nodes_ = 0;
 };
 
 template <int N>
@@ -150,6 +152,20 @@ float reach_of_box(const Box& box) {
 
 }  // namespace
 
+std::vector<LayoutFact> WideShape::facts(std::size_t bytes) const {
+  return {{"topology_bytes", static_cast<double>(node_bytes)},
+          {"leaf_bytes", static_cast<double>(bytes - node_bytes)},
+          {"lane_fill", static_cast<double>(children), static_cast<double>(nodes * lanes)}};
+}
+
+/// Leaves of full blocks, without padding, are 40 bytes per triangle.
+std::vector<LayoutFact> wide_facts(const WideShape& shape, std::size_t bytes) {
+  std::vector<LayoutFact> facts = shape.facts(bytes);
+  facts.push_back(
+      {"leaf_fill", 40 * static_cast<double>(shape.triangles), static_cast<double>(bytes - shape.node_bytes)});
+  return facts;
+}
+
 std::uint32_t stack_need(const Tree& tree) {
   std::vector<std::uint32_t> need(tree.nodes.size(), 1);
   std::uint32_t most = 1;
@@ -166,12 +182,15 @@ std::uint32_t stack_need(const Tree& tree) {
 template <int N, int L>
 WideArena encode_wide(const Tree& tree, const Mesh& mesh) {
   const Placement<N, L> placement(tree);
-  WideArena out{Arena(placement.bytes()), {}};
+  WideArena out{Arena(placement.bytes()), {}, {}};
   std::byte* base = out.memory.data();
   out.view = {base, wide_reference(cache_line, false), 0, stack_need(tree), placement.bytes() > small_tree_bytes};
   WideNode<N>& root = empty_node<N>(base + cache_line);
   if (tree.empty()) return out;
   out.view.reach = reach_of_box(tree.nodes[0].bounds);
+  const std::size_t nodes = std::max<std::size_t>(placement.inner_nodes(), 1);  // a leaf alone has a node above it
+  out.shape = {nodes, nodes * sizeof(WideNode<N>), N, std::max<std::size_t>(tree.nodes.size() - 1, 1),
+               tree.references.size()};
   if (tree.nodes[0].is_leaf()) {
     set_lane(root, 0, tree.nodes[0].bounds, wide_reference(placement.place(0), true));
   }

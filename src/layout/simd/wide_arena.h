@@ -1,7 +1,10 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "boxwood/box.h"
+#include "boxwood/layout_fact.h"
 #include "boxwood/scene.h"
 #include "layout/simd/arena.h"
 #include "layout/simd/wide_node.h"
@@ -24,12 +27,26 @@ struct WideView {
   const Triangle* triangles = nullptr;
 };
 
+/// What is in an encoded tree.
+struct WideShape {
+  std::size_t nodes = 0, node_bytes = 0, lanes = 0;  ///< inner nodes, bytes of all, children that one has room for
+  std::size_t children = 0, triangles = 0;
+
+  /// `topology_bytes`, `leaf_bytes`, and how full nodes are: `lane_fill`.
+  std::vector<LayoutFact> facts(std::size_t bytes) const;
+};
+
+/// shape.facts() and how full leaves are.
+std::vector<LayoutFact> wide_facts(const WideShape& shape, std::size_t bytes);
+
 /// An encoded tree and its memory.
 struct WideArena {
   Arena memory;
   WideView view;
+  WideShape shape;
 
   std::size_t bytes() const { return memory.bytes(); }
+  std::vector<LayoutFact> facts() const { return wide_facts(shape, bytes()); }
 };
 
 /// Most stack entries the kernels have room for; a deeper tree is not for them.

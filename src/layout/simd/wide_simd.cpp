@@ -27,6 +27,9 @@ struct SavableArena : WideArena {
     out.facts.root_reference = view.root;
     out.facts.reach = view.reach;
     out.facts.primitives = triangles;
+    out.facts.nodes = shape.nodes;
+    out.facts.inner_children = shape.children;
+    out.facts.triangles = shape.triangles;
     out.nodes = {memory.data(), memory.bytes()};
   }
 };

@@ -14,7 +14,7 @@ Kernels<WideNodes, InstanceLeaves> kernels_of(const Level<WideNodes, InstanceLea
   return wide_instance_kernels(trace);
 }
 
-WideNodes nodes_of(const SavedLevel& level) {
+WideNodes saved_wide_nodes(const SavedLevel& level) {
   const SavedFacts& facts = level.facts;
   if (facts.children < 2 || facts.children > 256) {
     throw Error(fmt::format("it has nodes of {} children", facts.children));
@@ -26,9 +26,9 @@ WideNodes nodes_of(const SavedLevel& level) {
 }
 
 /// Walks the inner nodes, which stand in depth-first order, so that each is reached when its turn has come.
-class Check {
+class WideCheck {
  public:
-  Check(const SavedLevel& level, const WideNodes& nodes)
+  WideCheck(const SavedLevel& level, const WideNodes& nodes)
       : nodes_(nodes), leaves_(leaf_entries(level)), inner_(nodes.memory.size() / (8 * std::size_t{nodes.k})) {}
 
   std::string run() {
@@ -87,19 +87,19 @@ class Check {
   std::uint32_t reached_ = 0;
 };
 
-std::string damage_in(const SavedLevel& level) {
-  const WideNodes nodes = nodes_of(level);
+std::string wide_damage(const SavedLevel& level) {
+  const WideNodes nodes = saved_wide_nodes(level);
   if (nodes.empty()) return nodes.memory.empty() ? std::string() : "it has nodes but no root";
-  return Check(level, nodes).run();
+  return WideCheck(level, nodes).run();
 }
 
-std::shared_ptr<const Layout> restore(const SavedLevel& level, const TraceOptions& trace) {
-  return kernel_layout_of(nodes_of(level), level, trace,
+std::shared_ptr<const Layout> restore_wide(const SavedLevel& level, const TraceOptions& trace) {
+  return kernel_layout_of(saved_wide_nodes(level), level, trace,
                           [](const auto& l, const TraceOptions& t) { return kernels_of(l, t); });
 }
 
 }  // namespace
 
-SavedKindEntry saved_wide() { return {SavedKind::wide, damage_in, restore}; }
+SavedKindEntry saved_wide() { return {SavedKind::wide, wide_damage, restore_wide}; }
 
 }  // namespace boxwood

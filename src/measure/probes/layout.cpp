@@ -16,11 +16,13 @@ const std::vector<Metric>& metrics() {
       {"primitive_multiplication", "", "references at the leaves for each primitive"},
       {"chunks", "", "chunks of bits"},
       {"chunk_fill", "", "nodes in chunks over nodes they have room for"},
-      {"absent_children", "", "places of wide quantized nodes that are filled up"}};
+      {"absent_children", "", "places of wide quantized nodes that are filled up"},
+      {"lane_fill", "", "children of SIMD nodes over children that they have room for"},
+      {"leaf_fill", "", "bytes of the triangles of SIMD leaves over bytes of the leaves"}};
   return all;
 }
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_layout(const ProbeInput& input) {
   std::vector<Value> values;
   for (const LayoutFact& fact : input.structure.report().facts) values.push_back({fact.name, fact.figure()});
   return values;
@@ -29,7 +31,7 @@ std::vector<Value> measure(const ProbeInput& input) {
 }  // namespace
 
 Probe layout_probe() {
-  return {"layout", ProbeScope::structure, false, "what the layout tells of itself", metrics(), measure};
+  return {"layout", ProbeScope::structure, false, "what the layout tells of itself", metrics(), measure_layout};
 }
 
 }  // namespace boxwood

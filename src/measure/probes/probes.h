@@ -9,6 +9,7 @@ Probe splits_probe();
 Probe layout_probe();
 Probe tree_probe();
 Probe quality_probe();
+Probe slabs_probe();
 Probe time_probe();
 Probe tests_probe();
 Probe answers_probe();
