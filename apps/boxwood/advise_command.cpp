@@ -42,11 +42,13 @@ double parse_amount(const std::string& text, const std::vector<std::pair<std::st
 }
 
 double parse_bytes(const std::string& text) {
-  return parse_amount(text, {{"", 1}, {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}, "an amount such as 500MB or 2GB");
+  return parse_amount(text, {{"", 1}, {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}},
+                      "an amount such as 500MB or 2GB");
 }
 
 double parse_seconds(const std::string& text) {
-  return parse_amount(text, {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}, "a time such as 200ms, 30s or 5min");
+  return parse_amount(text, {{"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}},
+                      "a time such as 200ms, 30s or 5min");
 }
 
 std::vector<std::string> kinds_of(const std::string& text) {
