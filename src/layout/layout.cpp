@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "boxwood/error.h"
+
 namespace boxwood {
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
@@ -39,6 +41,15 @@ bool Layout::any_below(const Ray& ray, RayCounters* counters) const {
   any_hits_counted({&ray, 1}, {&blocked, 1}, {&spent, 1});
   *counters += spent;
   return blocked != 0;
+}
+
+void Layout::offer_below(const Ray&, std::uint32_t, HitSink&) const { refuse_to_offer(); }
+
+void Layout::refuse_to_offer() {
+  throw UsageError(
+      "a peer finds closest and any hits only; all hits, the first k hits and filters need a layout of our own, such "
+      "as "
+      "the preset 'default'");
 }
 
 }  // namespace boxwood
