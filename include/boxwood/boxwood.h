@@ -1,8 +1,11 @@
 #pragma once
 #include "boxwood/box.h"           // IWYU pragma: export
 #include "boxwood/counters.h"      // IWYU pragma: export
+#include "boxwood/distance.h"      // IWYU pragma: export
 #include "boxwood/error.h"         // IWYU pragma: export
 #include "boxwood/expected_use.h"  // IWYU pragma: export
+#include "boxwood/hit_filter.h"    // IWYU pragma: export
+#include "boxwood/hit_lists.h"     // IWYU pragma: export
 #include "boxwood/ray.h"           // IWYU pragma: export
 #include "boxwood/ray_set.h"       // IWYU pragma: export
 #include "boxwood/recipe.h"        // IWYU pragma: export

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "boxwood/error.h"
 #include "layout/saved_level.h"
 
 namespace boxwood {
@@ -56,5 +57,14 @@ void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& fac
 }
 
 std::optional<SavedLevel> Layout::saved() const { return {}; }
+
+void Layout::offer_below(const Ray&, std::uint32_t, HitSink&) const { refuse_to_offer(); }
+
+void Layout::refuse_to_offer() {
+  throw UsageError(
+      "a peer finds closest and any hits only; all hits, the first k hits and filters need a layout of our own, such "
+      "as "
+      "the preset 'default'");
+}
 
 }  // namespace boxwood

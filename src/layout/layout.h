@@ -9,6 +9,7 @@
 #include "boxwood/counters.h"
 #include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
+#include "trace/hit_sink.h"
 
 namespace boxwood {
 
@@ -35,6 +36,13 @@ class Layout {
   /// own override them, to start from the cut-off that `best` is.
   virtual void closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const;
   virtual bool any_below(const Ray& ray, RayCounters* counters) const;
+
+  /// Brings every hit of the ray to `sink`, as hits of `instance`. The default is a peer's, which cannot.
+  virtual void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const;
+  /// The same of a structure of its own, whose leaves may know their instances.
+  virtual void offer_hits(const Ray& ray, HitSink& sink) const { offer_below(ray, 0, sink); }
+  /// Throws the UsageError that says so.
+  [[noreturn]] static void refuse_to_offer();
 
   /// Bytes held, beyond the caller's mesh and the bottom levels.
   virtual std::size_t bytes() const = 0;

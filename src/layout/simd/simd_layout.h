@@ -37,6 +37,9 @@ class SimdLayout final : public Layout {
       blocked[i] = kernels_.any_hit_counted(memory_.view, rays[i], counters[i]) ? 1 : 0;
     }
   }
+  void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const override {
+    kernels_.offer_hits(memory_.view, ray, instance, sink);
+  }
   std::size_t bytes() const override { return memory_.bytes(); }
   std::optional<SavedLevel> saved() const override {
     if constexpr (requires(SavedLevel & out) { memory_.save(out); }) {
