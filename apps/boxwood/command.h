@@ -59,7 +59,9 @@ class CommandSet {
 
 // One function per command, defined where the command is.
 void add_render(CommandSet& commands);
+void add_build(CommandSet& commands);
 void add_compare(CommandSet& commands);
+void add_advise(CommandSet& commands);
 void add_inspect(CommandSet& commands);
 void add_verify(CommandSet& commands);
 void add_cameras(CommandSet& commands);
@@ -71,6 +73,7 @@ void add_recipes(CommandSet& commands);
 void add_scenes(CommandSet& commands);
 void add_view_command(CommandSet& commands);
 void add_video(CommandSet& commands);
+void add_soak(CommandSet& commands);
 void add_test(CommandSet& commands);
 
 }  // namespace boxwood::cli

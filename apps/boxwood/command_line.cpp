@@ -19,12 +19,15 @@ namespace {
 constexpr void (*all_commands[])(CommandSet&) = {
     // clang-format off
     add_render,
+    add_advise,
     add_compare,
+    add_build,
     add_inspect,
     add_verify,
     add_view_command,
     add_cameras,
     add_video,
+    add_soak,
     add_test,
     add_bench,
     add_study,

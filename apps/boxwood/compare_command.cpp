@@ -29,6 +29,7 @@ struct CompareOptions {
   ViewOptions view;
   std::vector<std::string> scenes;
   std::vector<std::string> recipes;  ///< empty: a spread of everything there is
+  std::vector<std::string> saved;    ///< files of structures
   std::vector<std::string> rays;     ///< kinds; empty: primary, shadow, ao, diffuse
   std::uint32_t repeats = 11;
   std::string save_rays, load_rays;  ///< files
@@ -68,6 +69,10 @@ std::vector<Recipe> recipes_of(const CompareOptions& options) {
 void check_request(const CompareOptions& options) {
   const bool many = options.scenes.size() > 1;
   if (many && !options.save_rays.empty()) throw UsageError("--save-rays takes the rays of one scene; name only one");
+  if (many && !options.saved.empty()) throw UsageError("--structure is a structure of one scene; name only one");
+  if (!options.saved.empty() && options.metrics) {
+    throw UsageError("--metrics judges trees, which saved structures do not have; leave --structure or it out");
+  }
   if (many && !options.load_rays.empty()) throw UsageError("--load-rays has the rays of one scene; name only one");
   if (!options.load_rays.empty() && !options.rays.empty()) {
     throw UsageError("--load-rays brings its own rays; leave --rays out");
@@ -117,6 +122,7 @@ SceneComparison compare_scene(const Scene& scene, const std::vector<Recipe>& rec
   settings.repeats = options.repeats;
   settings.threads = options.common.threads;
   settings.use = use ? &*use : nullptr;
+  settings.saved.assign(options.saved.begin(), options.saved.end());
   SceneComparison result{compare(scene, recipes, ray_sets, settings, &bar), {}};
   if (options.metrics) {
     result.metrics = run_in_arena(options.common.threads,
@@ -191,6 +197,9 @@ void add_compare(CommandSet& commands) {
   add_scenes(command, options->scenes);
   add_recipes(command, options->recipes, "A contestant; say it once for each (none: a spread of everything there is)");
   const std::vector<std::string> kinds(ray_kinds().begin(), ray_kinds().end());
+  command.repeated(
+      "--structure", options->saved, "FILE",
+      "A structure saved by 'boxwood build' as a further contestant; its build time is that of loading it");
   command.list("--rays", options->rays, "KINDS", "Comma-separated ray kinds: " + option_text::join(kinds, ", "),
                "primary,shadow,ao,diffuse");
   command.integer("--repeat", options->repeats, 1, 10000, "Timed passes over each ray set");

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "boxwood/saved.h"
 #include "command.h"
 #include "console.h"
 #include "exit_code.h"
@@ -30,6 +31,7 @@ struct RenderOptions {
   ViewOptions view;
   std::string scene;
   std::string recipe = "default";
+  std::string saved;  ///< file of a structure; empty: it is built by the recipe
   std::string integrator = "eyelight";
   std::uint32_t spp = 1;
   std::uint32_t heatmap_scale = 0;
@@ -156,6 +158,18 @@ std::optional<float> parse_exposure(const std::string& text) {
   return static_cast<float>(stops);
 }
 
+/// Built for the first picture of a path, or loaded.
+Structure structure_of(const Scene& scene, const Recipe& recipe, const Camera& camera, const RenderOptions& options) {
+  if (!options.saved.empty()) {
+    Structure structure = load_structure(options.saved);
+    check_fits(structure, scene);
+    return structure;
+  }
+  std::optional<ExpectedUse> use;
+  if (needs_use(recipe)) use = expected_view(scene, camera, options.view, options.common.threads);
+  return build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
+}
+
 int run_render(const RenderOptions& options) {
   const Recipe recipe = Recipe::parse(options.recipe);
   const Integrator& integrator = find_integrator(options.integrator);
@@ -165,14 +179,11 @@ int run_render(const RenderOptions& options) {
   if (options.cameras.empty()) shots.front().camera = find_camera(scene, options.view);
   for (const std::string& note : scene_notes(scene)) complain(note);
   check_interrupt();
-  // Along a path the structure is built once, for the first picture.
-  std::optional<ExpectedUse> use;
-  if (needs_use(recipe)) use = expected_view(scene, shots.front().camera, options.view, options.common.threads);
-  const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
+  const Structure structure = structure_of(scene, recipe, shots.front().camera, options);
   Json documents = Json::array();
   if (!options.common.json) {
     print(fmt::format("{}: {}, built in {} by {}\n", scene.name, counted(scene.placed_triangles(), "triangle"),
-                      duration_text(structure.report().build_ms / 1000), recipe.text()));
+                      duration_text(structure.report().build_ms / 1000), structure.recipe().text()));
   }
   for (const Shot& shot : shots) {
     check_interrupt();
@@ -195,6 +206,9 @@ void add_render(CommandSet& commands) {
   Command command = commands.add("render", "Render a scene", [options] { return run_render(*options); });
   add_scene(command, options->scene);
   add_recipe(command, options->recipe);
+  command.text("--structure", options->saved, "FILE", "Trace a structure saved by 'boxwood build' instead of building",
+               "none");
+  command.conflict("--structure", "--recipe");
   std::vector<std::string> names;
   for (const Integrator& integrator : integrators()) names.emplace_back(integrator.name);
   command.text("--integrator", options->integrator, "NAME", "One of " + option_text::join(names, ", "));

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "boxwood/counters.h"
+#include "boxwood/hit_filter.h"
+#include "boxwood/hit_lists.h"
 #include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
 #include "boxwood/recipe.h"
@@ -37,7 +39,8 @@ struct BuildReport {
   std::vector<LayoutFact> facts;  ///< what the layout tells of itself, over all levels; see docs/octrees.md
 };
 
-/// An immutable acceleration structure. Copies share it. All queries are const, thread safe and allocation free.
+/// An immutable acceleration structure. Copies share it. All queries are const and thread safe, run on the calling
+/// thread, and allocate nothing but the lists that all_hits() returns. Rays outside the limits of Ray hit nothing.
 class Structure {
  public:
   Structure(std::shared_ptr<const Layout> layout, BuildReport report, Recipe recipe);
@@ -55,10 +58,34 @@ class Structure {
   void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                         std::span<RayCounters> counters) const;
 
+  // More than the closest hit, on every layout but peers, which refuse by a UsageError. Hits are in order of (t,
+  // instance, primitive); a triangle is hit once, also one in several leaves; a ray through an edge or a vertex hits
+  // every triangle there. See docs/queries.md.
+
+  /// Every hit with t in [ray.t_near, ray.t_far]. O(h log h) for h hits on top of one walk.
+  std::vector<Hit> all_hits(const Ray& ray) const;
+  HitLists all_hits(std::span<const Ray> rays) const;
+  /// Fills `hits` with the first hits.size() hits and returns how many there were; the rest becomes misses.
+  std::size_t first_hits(const Ray& ray, std::span<Hit> hits) const;
+  /// The first k hits of every ray: hits[i * k + n] is the n-th of ray i, a miss where there is none. Throws UsageError
+  /// unless hits.size() == k * rays.size().
+  void first_hits(std::span<const Ray> rays, std::size_t k, std::span<Hit> hits) const;
+  /// The first hit that `accept` takes. It is asked about hits in order, each once, until it takes one: the same calls
+  /// on every layout.
+  Hit closest_hit(const Ray& ray, HitFilter accept) const;
+  bool any_hit(const Ray& ray, HitFilter accept) const;
+  /// As above for every ray, one after the other; `accept` may ask for the ray's number, too.
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits, HitFilter accept) const;
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked, HitFilter accept) const;
+
   const BuildReport& report() const { return report_; }
   const Recipe& recipe() const { return recipe_; }
+  /// What answers the queries; of use to the rooms of this project only.
+  const std::shared_ptr<const Layout>& layout() const { return layout_; }
 
  private:
+  const Layout& hit_layout() const;
+
   std::shared_ptr<const Layout> layout_;
   BuildReport report_;
   Recipe recipe_;

@@ -7,6 +7,7 @@
 
 #include "layout/layout.h"
 #include "layout/leaves.h"
+#include "layout/saved_level.h"
 
 namespace boxwood {
 
@@ -30,6 +31,7 @@ struct Kernels {
   Any any = nullptr, any_counted = nullptr;
   void (*closest_batch)(const LevelType&, std::span<const Ray>, std::span<Hit>) = nullptr;
   void (*any_batch)(const LevelType&, std::span<const Ray>, std::span<std::uint8_t>) = nullptr;
+  void (*offer)(const LevelType&, const Ray&, std::uint32_t instance, HitSink& sink) = nullptr;
   /// Where a batch does not cost what its rays alone do; null elsewhere.
   void (*closest_batch_counted)(const LevelType&, std::span<const Ray>, std::span<Hit>,
                                 std::span<RayCounters>) = nullptr;
@@ -79,6 +81,12 @@ class KernelLayout final : public Layout {
   bool any_below(const Ray& ray, RayCounters* counters) const override {
     return (counters ? kernels_.any_counted : kernels_.any)(level_, ray, counters);
   }
+  void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const override {
+    kernels_.offer(level_, ray, instance, sink);
+  }
+  void offer_hits(const Ray& ray, HitSink& sink) const override {
+    kernels_.offer(level_, ray, Leaves::first_instance, sink);
+  }
   std::size_t bytes() const override { return level_.nodes.bytes() + level_.leaves.bytes(); }
   std::vector<LayoutFact> facts() const override {
     std::size_t topology = level_.nodes.bytes();
@@ -89,6 +97,18 @@ class KernelLayout final : public Layout {
       for (LayoutFact& fact : level_.nodes.facts()) facts.push_back(std::move(fact));
     }
     return facts;
+  }
+  std::optional<SavedLevel> saved() const override {
+    if constexpr (requires(SavedLevel & out) { level_.nodes.save(out); }) {
+      SavedLevel out;
+      level_.nodes.save(out);
+      save_leaves(level_.leaves, out);
+      out.facts.reach = level_.extent.reach;
+      out.facts.gain = level_.extent.gain;
+      out.facts.cull = level_.cull ? 1 : 0;
+      return out;
+    }
+    return {};
   }
 
  private:

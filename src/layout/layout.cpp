@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "boxwood/error.h"
+#include "layout/saved_level.h"
+
 namespace boxwood {
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
@@ -39,6 +42,29 @@ bool Layout::any_below(const Ray& ray, RayCounters* counters) const {
   any_hits_counted({&ray, 1}, {&blocked, 1}, {&spent, 1});
   *counters += spent;
   return blocked != 0;
+}
+
+void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
+  for (const LayoutFact& fact : facts) {
+    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
+    if (sum == sums.end()) {
+      sums.push_back(fact);
+    } else {
+      sum->value += fact.value;
+      sum->per += fact.per;
+    }
+  }
+}
+
+std::optional<SavedLevel> Layout::saved() const { return {}; }
+
+void Layout::offer_below(const Ray&, std::uint32_t, HitSink&) const { refuse_to_offer(); }
+
+void Layout::refuse_to_offer() {
+  throw UsageError(
+      "a peer finds closest and any hits only; all hits, the first k hits and filters need a layout of our own, such "
+      "as "
+      "the preset 'default'");
 }
 
 }  // namespace boxwood

@@ -2,14 +2,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "boxwood/counters.h"
 #include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
+#include "trace/hit_sink.h"
 
 namespace boxwood {
+
+struct SavedLevel;
 
 /// An immutable memory layout with its traversal kernels: the only thing a Structure holds. One virtual call per query,
 /// and one per visit of an instance, never per node. Every layout gives the same answers, to the bit; only a peer,
@@ -33,12 +37,24 @@ class Layout {
   virtual void closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const;
   virtual bool any_below(const Ray& ray, RayCounters* counters) const;
 
+  /// Brings every hit of the ray to `sink`, as hits of `instance`. The default is a peer's, which cannot.
+  virtual void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const;
+  /// The same of a structure of its own, whose leaves may know their instances.
+  virtual void offer_hits(const Ray& ray, HitSink& sink) const { offer_below(ray, 0, sink); }
+  /// Throws the UsageError that says so.
+  [[noreturn]] static void refuse_to_offer();
+
   /// Bytes held, beyond the caller's mesh and the bottom levels.
   virtual std::size_t bytes() const = 0;
   /// What else it tells of itself: at least `topology_bytes`, what a walk reads at every step, inner nodes and leaves
   /// alike, and `leaf_bytes`, all other. Empty where these are not kept apart.
   virtual std::vector<LayoutFact> facts() const { return {}; }
+  /// What files hold of it, referring to its memory; nothing when they cannot hold it.
+  virtual std::optional<SavedLevel> saved() const;
 };
+
+/// Adds up the facts of several levels, name by name.
+void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts);
 
 RayCounters& operator+=(RayCounters& sum, const RayCounters& more);
 

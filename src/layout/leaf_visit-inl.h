@@ -118,6 +118,43 @@ struct AnyVisit {
   }
 };
 
+/// All hits, brought to a sink.
+struct OfferVisit {
+  const Ray& ray;
+  const PreparedRay& prepared;
+  std::uint32_t instance;
+  HitSink& sink;
+  float cutoff;
+  NoCounting counting;
+
+  HWY_INLINE bool operator()(const Link& leaf, const TriangleLeaves& leaves) {
+    for (const LeafTriangle *t = leaves.triangles.data() + leaf.first, *end = t + leaf.count; t != end; ++t) entry(*t);
+    return false;
+  }
+  HWY_INLINE bool operator()(const Link& leaf, const InstanceLeaves& leaves) {
+    for (const InstanceLeaf *i = leaves.instances.data() + leaf.first, *end = i + leaf.count; i != end; ++i) entry(*i);
+    return false;
+  }
+
+  HWY_INLINE bool entry(const LeafTriangle& triangle) {
+    TriangleHit hit;
+    if (!hit_triangle(triangle.a, triangle.b, triangle.c, prepared, hit)) return false;
+    if (!(hit.t >= ray.t_near && hit.t <= ray.t_far)) return false;
+    sink.offer({hit.t, hit.v / hit.determinant, hit.w / hit.determinant, triangle.primitive, instance});
+    lower_cutoff();
+    return false;
+  }
+  HWY_INLINE bool entry(const InstanceLeaf& placed) {
+    const std::uint32_t number = instance == own_instances ? placed.instance : instance;
+    placed.bottom->offer_below(object_ray(placed.world_to_object, ray), number, sink);
+    lower_cutoff();
+    return false;
+  }
+  HWY_INLINE void lower_cutoff() {
+    if (sink.cutoff() < cutoff) cutoff = sink.cutoff();
+  }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace boxwood
 HWY_AFTER_NAMESPACE();

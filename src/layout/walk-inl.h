@@ -149,6 +149,15 @@ struct KernelsOf {
     return walk<Tester, order, mode>(level, prepared, visit);
   }
 
+  /// Whatever the order of the walk, hits come out the same: one kernel serves all.
+  static void offer(const LevelType& level, const Ray& ray, std::uint32_t instance, HitSink& sink) {
+    const PreparedRay prepared = prepare(ray, level.extent.reach, level.extent.gain);
+    if (!prepared.valid) return;
+    const float cutoff = sink.cutoff() < ray.t_far ? sink.cutoff() : ray.t_far;
+    OfferVisit visit{ray, prepared, instance, sink, cutoff, NoCounting(nullptr)};
+    walk<Tester, order, mode>(level, prepared, visit);
+  }
+
   static void closest_batch(const LevelType& level, std::span<const Ray> rays, std::span<Hit> hits) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       hits[i] = {};
@@ -161,7 +170,13 @@ struct KernelsOf {
   }
 
   static Kernels<Nodes, Leaves> table() {
-    return {closest<NoCounting>, closest<Counting>, any<NoCounting>, any<Counting>, closest_batch, any_batch};
+    return {closest<NoCounting>,
+            closest<Counting>,
+            any<NoCounting>,
+            any<Counting>,
+            closest_batch,
+            any_batch,
+            KernelsOf<Tester, ChildOrder::near, TraversalMode::iterative, Nodes, Leaves>::offer};
   }
 };
 

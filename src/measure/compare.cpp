@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "boxwood/saved.h"
 #include "boxwood/structure.h"
 #include "measure/clock.h"
 #include "measure/interleave.h"
@@ -34,8 +35,8 @@ class PartOfProgress final : public ProgressSink {
 
 constexpr double share_of_building = 0.3;  // of the progress; a guess
 
-void check(std::span<const Recipe> recipes, std::span<const RaySet> ray_sets) {
-  if (recipes.empty()) throw UsageError("a comparison needs at least one recipe");
+void check(std::span<const Recipe> recipes, std::span<const RaySet> ray_sets, const CompareSettings& settings) {
+  if (recipes.empty() && settings.saved.empty()) throw UsageError("a comparison needs at least one recipe");
   if (ray_sets.empty()) throw UsageError("a comparison needs at least one ray set");
   std::set<std::string_view> kinds;
   for (const RaySet& set : ray_sets) {
@@ -47,7 +48,17 @@ void check(std::span<const Recipe> recipes, std::span<const RaySet> ray_sets) {
 
 bool is_peer(const Recipe& recipe) { return recipe.stages().front().stage->kind == StageKind::peer; }
 
-/// Builds all recipes in turn, several times, into `structures`. Returns milliseconds per recipe and round.
+/// Loads a saved structure into `structure`. Returns how long it took.
+double load_timed(const Scene& scene, const std::filesystem::path& file, std::optional<Structure>& structure) {
+  const double begin = now(Clock::wall);
+  structure = load_structure(file);
+  const double milliseconds = (now(Clock::wall) - begin) * 1000;
+  check_fits(*structure, scene);
+  return milliseconds;
+}
+
+/// Builds all recipes in turn, several times, into `structures`, and loads what is saved likewise. Returns milliseconds
+/// per contestant and round.
 std::vector<std::vector<double>> build_all(const Scene& scene, std::span<const Recipe> recipes,
                                            const CompareSettings& settings,
                                            std::vector<std::optional<Structure>>& structures, ProgressSink* progress) {
@@ -58,6 +69,9 @@ std::vector<std::vector<double>> build_all(const Scene& scene, std::span<const R
       structures[i] = build(scene, recipes[i], {.threads = settings.threads, .use = settings.use});
       return structures[i]->report().build_ms;
     });
+  }
+  for (std::size_t i = 0; i < settings.saved.size(); ++i) {
+    contestants.push_back([&, i] { return load_timed(scene, settings.saved[i], structures[recipes.size() + i]); });
   }
   PartOfProgress first_round(progress, 0, share_of_building / 2);
   const double begin = now(Clock::wall);
@@ -75,11 +89,11 @@ std::vector<std::vector<double>> build_all(const Scene& scene, std::span<const R
   return milliseconds;
 }
 
-RecipeRow describe_build(const Recipe& recipe, const Structure& structure, std::span<const double> milliseconds) {
+RecipeRow describe_build(const Structure& structure, std::span<const double> milliseconds) {
   const BuildReport& report = structure.report();
   RecipeRow row;
-  row.recipe = recipe.text();
-  row.peer = is_peer(recipe);
+  row.recipe = structure.recipe().text();
+  row.peer = is_peer(structure.recipe());
   row.build_ms = estimate_median(milliseconds);
   row.bytes = report.bytes;
   if (report.primitives > 0) {
@@ -155,10 +169,11 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
   comparison.scene = scene.name;
   comparison.triangles = scene.placed_triangles();
   report_progress(progress, 0, "building");
-  std::vector<std::optional<Structure>> structures(recipes.size());
+  std::vector<std::optional<Structure>> structures(recipes.size() + settings.saved.size());
   const auto milliseconds = build_all(scene, recipes, settings, structures, progress);
-  for (std::size_t i = 0; i < recipes.size(); ++i) {
-    comparison.rows.push_back(describe_build(recipes[i], *structures[i], milliseconds[i]));
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    comparison.rows.push_back(describe_build(*structures[i], milliseconds[i]));
+    if (i >= recipes.size()) comparison.rows.back().file = settings.saved[i - recipes.size()].string();
   }
 
   const auto ours = std::ranges::find(comparison.rows, false, &RecipeRow::peer);
@@ -168,7 +183,7 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
     const double begin = share_of_building + share * static_cast<double>(s);
     Answers expected(ray_sets[s]);
     trace_rays(*structures[reference], ray_sets[s], expected);
-    for (std::size_t i = 0; i < recipes.size(); ++i) {
+    for (std::size_t i = 0; i < structures.size(); ++i) {
       const bool exact = !comparison.rows[i].peer && !comparison.rows[reference].peer;
       comparison.rows[i].rays.push_back(count(*structures[i], ray_sets[s], expected, exact));
       report_progress(progress, begin, "checking");
@@ -184,7 +199,7 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
 
 Comparison compare(const Scene& scene, std::span<const Recipe> recipes, std::span<const RaySet> ray_sets,
                    const CompareSettings& settings, ProgressSink* progress) {
-  check(recipes, ray_sets);
+  check(recipes, ray_sets, settings);
   const auto available = static_cast<unsigned>(tbb::info::default_concurrency());
   const unsigned threads = settings.threads > 0 ? settings.threads : available;
   // As many as asked for, even if the machine has fewer.

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct CompareSettings {
   std::uint32_t build_repeats = 3;
   double build_seconds = 60;         ///< no further round of builds starts once this much time went into building
   const ExpectedUse* use = nullptr;  ///< as BuildOptions::use
+  /// Saved structures of this scene, further contestants after the recipes; their build_ms is the time to load and
+  /// verify them.
+  std::vector<std::filesystem::path> saved;
 };
 
 /// One recipe on one ray set.
@@ -39,6 +43,7 @@ struct RayKindRow {
 
 struct RecipeRow {
   std::string recipe;  ///< canonical text
+  std::string file;    ///< of a saved structure; empty: it was built
   bool peer = false;   ///< not ours: its hits may differ from ours in the last bits
   Estimate build_ms;   ///< wall time
   std::size_t bytes = 0;
@@ -50,14 +55,15 @@ struct RecipeRow {
 struct Comparison {
   std::string scene;
   std::uint64_t triangles = 0;  ///< placed triangles
-  std::vector<RecipeRow> rows;  ///< one per recipe, in their order; the first is what ratios refer to
+  std::vector<RecipeRow> rows;  ///< one per recipe, then one per saved structure; ratios refer to the first
   /// One sentence per recipe and ray set with mismatches; empty when all agree.
   std::vector<std::string> disagreements;
 };
 
-/// Builds every recipe, checks that all answer alike, counts what their rays cost, then times them interleaved. Our own
-/// recipes must agree to the bit; a peer must agree on hit or miss and on the distance to a relative 1e-4. Throws
-/// UsageError when there is no recipe or ray set, or two sets of one kind; Cancelled when `progress` asks for it.
+/// Builds every recipe, loads what is saved, checks that all answer alike, counts what their rays cost, then times them
+/// interleaved. Our own recipes must agree to the bit; a peer must agree on hit or miss and on the distance to a
+/// relative 1e-4. Throws UsageError when there is no contestant or ray set, or two sets of one kind; Cancelled when
+/// `progress` asks for it.
 Comparison compare(const Scene& scene, std::span<const Recipe> recipes, std::span<const RaySet> ray_sets,
                    const CompareSettings& settings = {}, ProgressSink* progress = nullptr);
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "cost/registry.h"
+#include "recipe/capabilities.h"
 #include "report/number_text.h"
 #include "report/table.h"
 
@@ -84,6 +85,22 @@ std::string cost_models_markdown() {
   return out;
 }
 
+/// Which layout and which peer answers what.
+Table capability_table(std::span<const Stage> stages, std::string_view code) {
+  std::vector<Table::Column> columns = {{"layout or peer", Align::left}};
+  for (const CapabilityEntry& entry : capabilities()) columns.push_back({std::string(entry.name), Align::left});
+  Table table(std::move(columns));
+  for (const Stage& stage : stages) {
+    if (!answers_queries(stage)) continue;
+    std::vector<std::string> row = {quoted(stage.name, code)};
+    for (const CapabilityEntry& entry : capabilities()) {
+      row.emplace_back(has_capability(stage, entry.capability) ? "yes" : "refused");
+    }
+    table.add(row);
+  }
+  return table;
+}
+
 Table preset_table(std::span<const Preset> presets, std::string_view code) {
   Table table({{"preset", Align::left}, {"stands for", Align::left}, {"", Align::left}});
   for (const Preset& preset : presets) {
@@ -110,7 +127,9 @@ std::string recipes_text(std::span<const Stage> stages, std::span<const Preset> 
     out += entry(stage.name, fmt::format("{} [{}]", stage.summary, stage.source),
                  option_table(stage.options, stage.defaults, ""));
   });
-  return fmt::format("{}{}\n{}", out, cost_models_text(), preset_table(presets, "").text());
+  return fmt::format("{}{}\nWhat can be asked of a structure (distances: of any scene, apart from its recipe)\n{}\n{}",
+                     out, cost_models_text(), indent(capability_table(stages, "").text()),
+                     preset_table(presets, "").text());
 }
 
 std::string recipes_markdown(std::span<const Stage> stages, std::span<const Preset> presets) {
@@ -126,7 +145,10 @@ std::string recipes_markdown(std::span<const Stage> stages, std::span<const Pres
     const Table options = option_table(stage.options, stage.defaults, "`");
     if (!options.empty()) out += fmt::format("\n{}", options.markdown());
   });
-  return fmt::format("{}{}\n## Presets\n\n{}", out, cost_models_markdown(), preset_table(presets, "`").markdown());
+  return fmt::format(
+      "{}{}\n## Queries\n\nwhat can be asked of a structure; distances are asked of any scene, apart from its recipe: "
+      "[queries](queries.md).\n\n{}\n## Presets\n\n{}",
+      out, cost_models_markdown(), capability_table(stages, "`").markdown(), preset_table(presets, "`").markdown());
 }
 
 std::string scenes_text(std::span<const Generator> generators, std::span<const SceneSource> sources) {

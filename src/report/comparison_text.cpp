@@ -10,10 +10,13 @@ namespace {
 
 constexpr double significance_level = 0.05;
 
+/// A saved structure is called by its file.
+const std::string& name_of(const RecipeRow& row) { return row.file.empty() ? row.recipe : row.file; }
+
 std::string structures_table(const Comparison& comparison) {
   Table table({{"recipe", Align::left}, {"build ms"}, {"bytes/triangle"}, {"SAH cost"}});
   for (const RecipeRow& row : comparison.rows) {
-    table.add({row.recipe, with_interval(row.build_ms), significant(row.bytes_per_triangle),
+    table.add({name_of(row), with_interval(row.build_ms), significant(row.bytes_per_triangle),
                row.peer ? "–" : significant(row.sah_cost)});
   }
   return table.text();
@@ -33,7 +36,7 @@ std::string ray_kind_table(const Comparison& comparison, std::size_t index) {
   Table table({{"recipe", Align::left}, {"Mrays/s"}, {"× first"}, {"node tests/ray"}, {"primitive tests/ray"}});
   for (const RecipeRow& row : comparison.rows) {
     const RayKindRow& kind = row.rays[index];
-    table.add({row.recipe, with_interval(kind.mrays_per_s), ratio_text(kind, &row == &comparison.rows.front()),
+    table.add({name_of(row), with_interval(kind.mrays_per_s), ratio_text(kind, &row == &comparison.rows.front()),
                tests_per_ray(row, kind.node_tests_per_ray), tests_per_ray(row, kind.primitive_tests_per_ray)});
   }
   const double share = 100 * static_cast<double>(first.hits) / static_cast<double>(first.rays);

@@ -1,6 +1,7 @@
 #include "report/json.h"
 
 #include "cost/registry.h"
+#include "recipe/capabilities.h"
 #include "report/catalog_text.h"
 
 namespace boxwood {
@@ -54,6 +55,7 @@ Json to_json(const Comparison& comparison) {
     Json rays = Json::object();
     for (const RayKindRow& kind : row.rays) rays[kind.kind] = ray_kind_json(kind);
     rows.push_back({{"recipe", row.recipe},
+                    {"file", row.file.empty() ? Json() : Json(row.file)},
                     {"peer", row.peer},
                     {"build_ms", to_json(row.build_ms)},
                     {"bytes", row.bytes},
@@ -133,11 +135,18 @@ Json totals_by_query(std::span<const RayKindReport> ray_kinds) {
 Json to_json(std::span<const Stage> stages, std::span<const Preset> presets) {
   Json stage_list = Json::array();
   for (const Stage& stage : stages) {
-    stage_list.push_back({{"name", stage.name},
-                          {"kind", stage_kind_name(stage.kind)},
-                          {"summary", stage.summary},
-                          {"source", stage.source},
-                          {"options", options_json(stage.options, stage.defaults)}});
+    Json entry = {{"name", stage.name},
+                  {"kind", stage_kind_name(stage.kind)},
+                  {"summary", stage.summary},
+                  {"source", stage.source},
+                  {"options", options_json(stage.options, stage.defaults)}};
+    if (answers_queries(stage)) {
+      entry["queries"] = Json::array();
+      for (const CapabilityEntry& query : capabilities()) {
+        if (has_capability(stage, query.capability)) entry["queries"].push_back(query.name);
+      }
+    }
+    stage_list.push_back(std::move(entry));
   }
   Json preset_list = Json::array();
   for (const Preset& preset : presets) {

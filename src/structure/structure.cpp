@@ -15,6 +15,7 @@
 #include "structure/mesh_geometry.h"
 #include "structure/object_use.h"
 #include "structure/pipeline.h"
+#include "structure/same_length.h"
 #include "tree/statistics.h"
 
 namespace boxwood {
@@ -24,18 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-void add(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
-  for (const LayoutFact& fact : facts) {
-    const auto sum = std::ranges::find(sums, fact.name, &LayoutFact::name);
-    if (sum == sums.end()) {
-      sums.push_back(fact);
-    } else {
-      sum->value += fact.value;
-      sum->per += fact.per;
-    }
-  }
 }
 
 /// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
@@ -50,7 +39,7 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   auto layout = pipeline.encode(std::move(tree), contents);
   report.build_ms += milliseconds_since(begin_layout);
   report.bytes += layout->bytes();
-  add(report.facts, layout->facts());
+  add_facts(report.facts, layout->facts());
   return layout;
 }
 
@@ -83,10 +72,6 @@ std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipelin
   contents.bottoms = bottoms;
   const KnownUse* of_instances = known_to([&] { return use_of_instances(*use, scene); });
   return build_level(pipeline, {instance_references(boxes), nullptr, of_instances}, contents, report);
-}
-
-void check_same_length(std::size_t rays, std::size_t answers) {
-  if (rays != answers) throw UsageError(fmt::format("{} rays need as many answers, not {}", rays, answers));
 }
 
 /// The use, where the recipe looks at it; null where it does not. Throws UsageError on one that does not fit the scene.
@@ -147,37 +132,6 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
 
 Structure build(const Scene& scene, std::string_view recipe, const BuildOptions& options) {
   return build(scene, Recipe::parse(recipe), options);
-}
-
-Structure::Structure(std::shared_ptr<const Layout> layout, BuildReport report, Recipe recipe)
-    : layout_(std::move(layout)), report_(std::move(report)), recipe_(std::move(recipe)) {}
-
-Hit Structure::closest_hit(const Ray& ray) const { return layout_->closest_hit(ray); }
-
-bool Structure::any_hit(const Ray& ray) const { return layout_->any_hit(ray); }
-
-void Structure::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
-  check_same_length(rays.size(), hits.size());
-  layout_->closest_hits(rays, hits);
-}
-
-void Structure::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  check_same_length(rays.size(), blocked.size());
-  layout_->any_hits(rays, blocked);
-}
-
-void Structure::closest_hits_counted(std::span<const Ray> rays, std::span<Hit> hits,
-                                     std::span<RayCounters> counters) const {
-  check_same_length(rays.size(), hits.size());
-  check_same_length(rays.size(), counters.size());
-  layout_->closest_hits_counted(rays, hits, counters);
-}
-
-void Structure::any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
-                                 std::span<RayCounters> counters) const {
-  check_same_length(rays.size(), blocked.size());
-  check_same_length(rays.size(), counters.size());
-  layout_->any_hits_counted(rays, blocked, counters);
 }
 
 }  // namespace boxwood

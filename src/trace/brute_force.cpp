@@ -36,6 +36,19 @@ bool any_of_all(const BruteForce::Data& data, const Ray& ray) {
   return false;
 }
 
+void append_all(const BruteForce::Data& data, const Ray& ray, std::vector<Hit>& hits) {
+  if (!within_limits(ray)) return;
+  for (std::uint32_t i = 0; i < data.instances.size(); ++i) {
+    const BruteForce::Placed& placed = data.instances[i];
+    const PreparedRay prepared = prepare(placed.identity ? ray : object_ray(placed.world_to_object, ray), 0);
+    if (!prepared.valid) continue;
+    for (std::uint32_t t = 0; t < placed.count; ++t) {
+      Hit hit;
+      if (closest_of(data.triangles[placed.first + t], prepared, i, hit)) hits.push_back(hit);
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace boxwood
 HWY_AFTER_NAMESPACE();
@@ -44,10 +57,15 @@ HWY_AFTER_NAMESPACE();
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
+#include "trace/hit_sink.h"
+
 namespace boxwood {
 
 HWY_EXPORT(closest_of_all);
 HWY_EXPORT(any_of_all);
+HWY_EXPORT(append_all);
 
 namespace {
 
@@ -83,6 +101,13 @@ BruteForce::BruteForce(const Scene& scene) {
 Hit BruteForce::closest_hit(const Ray& ray) const { return HWY_DYNAMIC_DISPATCH(closest_of_all)(data_, ray); }
 
 bool BruteForce::any_hit(const Ray& ray) const { return HWY_DYNAMIC_DISPATCH(any_of_all)(data_, ray); }
+
+std::vector<Hit> BruteForce::all_hits(const Ray& ray) const {
+  std::vector<Hit> hits;
+  HWY_DYNAMIC_DISPATCH(append_all)(data_, ray, hits);
+  std::ranges::sort(hits, comes_before);
+  return hits;
+}
 
 void BruteForce::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   check_same_length(rays.size(), hits.size());

@@ -19,6 +19,8 @@ class BruteForce {
 
   Hit closest_hit(const Ray& ray) const;
   bool any_hit(const Ray& ray) const;
+  /// Every hit, in the order of comes_before().
+  std::vector<Hit> all_hits(const Ray& ray) const;
   /// One answer per ray. Throws UsageError when the spans differ in length.
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;

@@ -24,6 +24,10 @@ struct BinaryNodes {
 
   bool empty() const { return nodes.empty(); }
   std::size_t bytes() const { return nodes.size() * sizeof(BinaryNode); }
+  void save(SavedLevel& out) const {
+    out.facts.kind = SavedKind::binary;
+    out.nodes = std::as_bytes(std::span(nodes));
+  }
 };
 
 /// The fastest kernels this machine can run.

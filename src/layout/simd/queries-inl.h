@@ -7,6 +7,7 @@
 #endif
 
 #include "layout/simd/batch-inl.h"
+#include "layout/simd/offer-inl.h"
 #include "layout/simd/packet-inl.h"
 #include "layout/simd/single-inl.h"
 #include "layout/simd/steps16-inl.h"
@@ -30,6 +31,9 @@ struct Single {
   }
   static bool any_counted(const WideView& view, const Ray& ray, RayCounters& counters) {
     return any_hit<Store>(view, prepare(ray, view.reach), CountSteps{counters});
+  }
+  static void offer(const WideView& view, const Ray& ray, std::uint32_t instance, HitSink& sink) {
+    offer_hits<Store>(view, prepare(ray, view.reach), instance, sink);
   }
   static void closest_each(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits) {
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest(view, rays[i]);
@@ -122,7 +126,8 @@ struct Batch {
 template <class Store>
 WideKernels single_kernels() {
   using Each = Single<Store>;
-  return {Each::closest, Each::any, Each::closest_each, Each::any_each, Each::closest_counted, Each::any_counted};
+  return {Each::closest,         Each::any,         Each::closest_each, Each::any_each,
+          Each::closest_counted, Each::any_counted, Each::offer};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "layout/layout.h"
+#include "layout/saved_level.h"
 #include "layout/simd/wide_kernels.h"
 
 namespace boxwood {
@@ -36,7 +37,18 @@ class SimdLayout final : public Layout {
       blocked[i] = kernels_.any_hit_counted(memory_.view, rays[i], counters[i]) ? 1 : 0;
     }
   }
+  void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const override {
+    kernels_.offer_hits(memory_.view, ray, instance, sink);
+  }
   std::size_t bytes() const override { return memory_.bytes(); }
+  std::optional<SavedLevel> saved() const override {
+    if constexpr (requires(SavedLevel & out) { memory_.save(out); }) {
+      SavedLevel out;
+      memory_.save(out);
+      return out;
+    }
+    return {};
+  }
   std::vector<LayoutFact> facts() const override { return memory_.facts(); }
 
  private:

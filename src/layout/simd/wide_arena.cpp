@@ -159,10 +159,10 @@ std::vector<LayoutFact> WideShape::facts(std::size_t bytes) const {
 }
 
 /// Leaves of full blocks, without padding, are 40 bytes per triangle.
-std::vector<LayoutFact> WideArena::facts() const {
-  std::vector<LayoutFact> facts = shape.facts(bytes());
+std::vector<LayoutFact> wide_facts(const WideShape& shape, std::size_t bytes) {
+  std::vector<LayoutFact> facts = shape.facts(bytes);
   facts.push_back(
-      {"leaf_fill", 40 * static_cast<double>(shape.triangles), static_cast<double>(bytes() - shape.node_bytes)});
+      {"leaf_fill", 40 * static_cast<double>(shape.triangles), static_cast<double>(bytes - shape.node_bytes)});
   return facts;
 }
 

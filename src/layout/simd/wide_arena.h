@@ -36,6 +36,9 @@ struct WideShape {
   std::vector<LayoutFact> facts(std::size_t bytes) const;
 };
 
+/// shape.facts() and how full leaves are.
+std::vector<LayoutFact> wide_facts(const WideShape& shape, std::size_t bytes);
+
 /// An encoded tree and its memory.
 struct WideArena {
   Arena memory;
@@ -43,7 +46,7 @@ struct WideArena {
   WideShape shape;
 
   std::size_t bytes() const { return memory.bytes(); }
-  std::vector<LayoutFact> facts() const;
+  std::vector<LayoutFact> facts() const { return wide_facts(shape, bytes()); }
 };
 
 /// Most stack entries the kernels have room for; a deeper tree is not for them.

@@ -5,6 +5,7 @@
 #include "boxwood/counters.h"
 #include "boxwood/ray.h"
 #include "layout/simd/wide_arena.h"
+#include "trace/hit_sink.h"
 
 namespace boxwood {
 
@@ -16,6 +17,7 @@ struct WideKernels {
   void (*any_hits)(const WideView&, std::span<const Ray>, std::span<std::uint8_t>);
   Hit (*closest_hit_counted)(const WideView&, const Ray&, RayCounters&);
   bool (*any_hit_counted)(const WideView&, const Ray&, RayCounters&);
+  void (*offer_hits)(const WideView&, const Ray&, std::uint32_t instance, HitSink&);
 };
 
 /// The best kernels this machine can run, for nodes of N children and leaf blocks of L triangles.

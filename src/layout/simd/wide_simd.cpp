@@ -13,9 +13,31 @@
 namespace boxwood {
 namespace {
 
+/// An arena that knows what files must know of it.
+template <int N, int L>
+struct SavableArena : WideArena {
+  std::uint32_t triangles = 0;  ///< of the mesh
+
+  void save(SavedLevel& out) const {
+    out.facts.kind = SavedKind::simd_wide;
+    out.facts.children = N;
+    out.facts.block = L;
+    out.facts.out_of_cache = view.out_of_cache ? 1 : 0;
+    out.facts.stack = view.stack;
+    out.facts.root_reference = view.root;
+    out.facts.reach = view.reach;
+    out.facts.primitives = triangles;
+    out.facts.nodes = shape.nodes;
+    out.facts.inner_children = shape.children;
+    out.facts.triangles = shape.triangles;
+    out.nodes = {memory.data(), memory.bytes()};
+  }
+};
+
 template <int N, int L>
 std::shared_ptr<const Layout> make(const Tree& tree, const Mesh& mesh) {
-  return std::make_shared<SimdLayout<WideArena>>(encode_wide<N, L>(tree, mesh), wide_kernels<N, L>());
+  SavableArena<N, L> arena{encode_wide<N, L>(tree, mesh), static_cast<std::uint32_t>(mesh.triangles.size())};
+  return std::make_shared<SimdLayout<SavableArena<N, L>>>(std::move(arena), wide_kernels<N, L>());
 }
 
 }  // namespace

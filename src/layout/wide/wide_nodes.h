@@ -23,6 +23,13 @@ struct WideNodes {
 
   bool empty() const { return root.count == 0; }
   std::size_t bytes() const { return memory.size() * sizeof(float); }
+  void save(SavedLevel& out) const {
+    out.facts.kind = SavedKind::wide;
+    out.facts.children = k;
+    out.facts.root_box = root_box;
+    out.facts.root = root;
+    out.nodes = std::as_bytes(std::span(memory));
+  }
 };
 
 /// The fastest kernels this machine can run.

@@ -1,0 +1,159 @@
+// What happens to a saved structure whose bytes are not those that were written.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "math/random.h"
+#include "saved/files.h"
+#include "saved/section_file.h"
+#include "support/rays.h"
+#include "support/scenes.h"
+
+namespace boxwood {
+namespace {
+
+using namespace test;
+
+struct Case {
+  std::string name;
+  Scene scene;
+  std::string recipe;
+};
+
+std::vector<Case> cases() {
+  return {{"binary", soup(12, 0.5f, 1), "median > binary"},
+          {"scalar", soup(12, 0.5f, 2), "binned > wide(4) > trace(simd=off)"},
+          {"simd4", soup(20, 0.5f, 3), "binned > wide(4)"},
+          {"simd8", soup(30, 0.5f, 4), "median(leaf=9) > wide(8)"},
+          {"simd16", soup(20, 0.5f, 5), "binned > wide(16)"},
+          {"placed", test::instances(), "binned > wide(8)"}};
+}
+
+/// A triangle that is placed by a transform: the smallest structure of two levels.
+Scene placed_once() {
+  Scene scene = soup(1, 0.5f, 6);
+  scene.instances[0].object_to_world = Transform::translate({1, 2, 3});
+  return scene;
+}
+
+TEST(DamagedStructure, CutAnywhereIsRefusedEvenUnverified) {
+  const Folder folder;
+  for (const Case& c : cases()) {
+    save(build(c.scene, c.recipe), folder.file("good"));
+    const std::string bytes = read_bytes(folder.file("good"));
+    // Every length there is, for the smallest; a stride that meets every offset within a cache line for others.
+    write_bytes(folder.file("cut"), bytes);
+    for (std::size_t size = bytes.size(); size-- > 0;
+         size -= bytes.size() < 1500 ? 0 : std::min<std::size_t>(size, 12)) {
+      std::filesystem::resize_file(folder.file("cut"), size);
+      ASSERT_NE(refusal(folder.file("cut"), Verification::header), "") << c.name << " at " << size;
+    }
+    write_bytes(folder.file("long"), bytes + std::string(64, '\0'));
+    EXPECT_NE(refusal(folder.file("long"), Verification::header), "");
+  }
+}
+
+TEST(DamagedStructure, AFlippedBitInAnyByteIsRefused) {
+  const Folder folder;
+  const std::vector<Case> small = {{"scalar", soup(2, 0.5f, 1), "median > binary"},
+                                   {"simd", soup(2, 0.5f, 4), "median > wide(4)"},
+                                   {"placed", placed_once(), "median > wide(4)"}};
+  for (const Case& c : small) {
+    save(build(c.scene, c.recipe), folder.file("bad"));
+    const std::string bytes = read_bytes(folder.file("bad"));
+    std::fstream file(folder.file("bad"), std::ios::in | std::ios::out | std::ios::binary);
+    const auto set = [&](std::size_t byte, char value) {
+      file.seekp(static_cast<std::streamoff>(byte)).put(value).flush();
+    };
+    for (std::size_t byte = 0; byte < bytes.size(); ++byte) {
+      set(byte, static_cast<char>(bytes[byte] ^ (1 << (byte % 8))));
+      const std::string why = refusal(folder.file("bad"));
+      ASSERT_NE(why, "") << c.name << ", byte " << byte;
+      ASSERT_EQ(why.find('\n'), std::string::npos) << why;
+      set(byte, bytes[byte]);
+    }
+    EXPECT_EQ(refusal(folder.file("bad")), "");
+  }
+}
+
+/// The sections of a file with one of them changed, under checksums that are right.
+void rewrite(const std::filesystem::path& from, const std::filesystem::path& to, std::size_t changed,
+             const std::string& bytes, std::size_t levels) {
+  SectionFile file(from, true);
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < 2 + 3 * levels; ++i) {
+    const auto kind = static_cast<SectionKind>(i < 2 ? i + 1 : 3 + (i - 2) % 3);
+    sections.push_back({kind, file.next(kind)});
+  }
+  sections[changed].bytes = std::as_bytes(std::span(bytes));
+  write_sections(to, sections);
+}
+
+std::string section_bytes(const std::filesystem::path& from, std::size_t number) {
+  SectionFile file(from, true);
+  std::span<const std::byte> bytes;
+  for (std::size_t i = 0; i <= number; ++i)
+    bytes = file.next(static_cast<SectionKind>(i < 2 ? i + 1 : 3 + (i - 2) % 3));
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(DamagedStructure, WrongNodesUnderRightChecksumsAreRefusedOrTracedWithinBounds) {
+  const Folder folder;
+  std::uint64_t seed = 0;
+  std::size_t refused = 0, traced = 0;
+  for (const Case& c : cases()) {
+    const std::vector<Ray> rays = troubling_rays(c.scene, 10, 3);
+    const Structure built = build(c.scene, c.recipe);
+    save(built, folder.file("good"));
+    const std::size_t levels = c.scene.single_level() ? 1 : c.scene.meshes.size() + 1;
+    for (std::size_t section = 2; section < 2 + 3 * levels; ++section) {
+      const std::string good = section_bytes(folder.file("good"), section);
+      for (int n = 0; n < 30 && !good.empty(); ++n) {
+        Random random(77, ++seed);
+        std::string bad = good;
+        const std::size_t word = random.below(static_cast<std::uint32_t>(bad.size() / 4)) * 4;
+        constexpr std::uint32_t values[] = {0, 1, 2, 3, 5, 64, 0x7f800000, 0x80000000, 0xffffffff};
+        std::uint32_t value = values[random.below(9)];
+        if (n % 2 == 0) {  // a near miss
+          std::memcpy(&value, bad.data() + word, 4);
+          value ^= 1u << random.below(32);
+        }
+        std::memcpy(bad.data() + word, &value, 4);
+        rewrite(folder.file("good"), folder.file("bad"), section, bad, levels);
+        if (!refusal(folder.file("bad")).empty()) {
+          ++refused;
+          continue;
+        }
+        const Structure loaded = load_structure(folder.file("bad"));
+        std::vector<Hit> hits(rays.size());
+        loaded.closest_hits(rays, hits);
+        for (const Hit& hit : hits) {
+          ASSERT_TRUE(!hit.valid() || hit.instance < c.scene.instances.size());
+        }
+        for (const Ray& ray : rays) loaded.any_hit(ray);
+        ++traced;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100u);
+  EXPECT_GT(traced, 100u);
+}
+
+TEST(DamagedStructure, SectionsOfAnotherSizeAreRefused) {
+  const Folder folder;
+  for (const Case& c : cases()) {
+    save(build(c.scene, c.recipe), folder.file("good"));
+    const std::size_t levels = c.scene.single_level() ? 1 : c.scene.meshes.size() + 1;
+    for (std::size_t section = 0; section < 2 + 3 * levels; ++section) {
+      const std::string good = section_bytes(folder.file("good"), section);
+      if (good.empty()) continue;
+      for (const std::size_t size : {std::size_t{0}, std::size_t{1}, good.size() / 2, good.size() - 1}) {
+        rewrite(folder.file("good"), folder.file("bad"), section, good.substr(0, size), levels);
+        EXPECT_NE(refusal(folder.file("bad")), "") << c.name << ", section " << section << " cut to " << size;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boxwood
