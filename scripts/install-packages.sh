@@ -4,6 +4,7 @@ set -eu
 packages="g++ cmake make ninja-build ccache mold
 libtbb-dev libfmt-dev libhwy-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinyexr-dev libembree-dev
 libglfw3-dev libimgui-dev libgl-dev xvfb libgl1-mesa-dri xdotool
+pybind11-dev python3-dev python3-numpy python3-pytest
 libboost-math-dev libsqlite3-dev libtoml11-dev libgtest-dev libbenchmark-dev zlib1g-dev
 chromium nodejs
 glmark2-data"

@@ -1,0 +1,225 @@
+// The Python module boxwood._core: NumPy arrays in and out, seen as the library's own types, nothing copied on the way.
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "boxwood/distance.h"
+#include "boxwood/error.h"
+#include "boxwood/scene.h"
+#include "boxwood/structure.h"
+
+namespace py = pybind11;
+
+namespace boxwood {
+namespace {
+
+constexpr auto dense = py::array::c_style | py::array::forcecast;
+using Floats = py::array_t<float, dense>;
+
+void check_columns(const py::array& array, py::ssize_t columns, const char* name) {
+  if (array.ndim() == 2 && array.shape(1) == columns) return;
+  std::string shape;
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) shape += fmt::format("{}{}", i ? ", " : "", array.shape(i));
+  throw UsageError(fmt::format("'{}' must have the shape (n, {}), not ({})", name, columns, shape));
+}
+
+/// Rows of floats as what they are to the library.
+template <class Row>
+std::span<const Row> rows_of(const Floats& array, const char* name) {
+  check_columns(array, sizeof(Row) / sizeof(float), name);
+  return {reinterpret_cast<const Row*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+template <class T>
+std::span<T> span_of(py::array_t<T>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+std::vector<Triangle> triangles_of(const py::array& faces) {
+  check_columns(faces, 3, "faces");
+  const char kind = faces.dtype().kind();
+  if (kind != 'i' && kind != 'u') throw UsageError("'faces' must hold integers, indices into the vertices");
+  const auto indices = py::array_t<std::int64_t, dense>::ensure(faces);
+  std::vector<Triangle> out(static_cast<std::size_t>(faces.shape(0)));
+  const std::int64_t* next = indices.data();
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    for (std::uint32_t& corner : out[t]) {
+      const std::int64_t index = *next++;
+      if (index < 0 || index > 0xffffffff) throw UsageError(fmt::format("face {} has the index {}", t, index));
+      corner = static_cast<std::uint32_t>(index);
+    }
+  }
+  return out;
+}
+
+/// Answers do not depend on the cut: every ray is on its own.
+template <class Trace>
+void in_parallel(std::size_t rays, unsigned threads, const Trace& trace) {
+  if (threads == 1) return trace(0, rays);
+  tbb::task_arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)).execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays, 1 << 14),
+                      [&](const auto& range) { trace(range.begin(), range.size()); });
+  });
+}
+
+/// A structure, with the scene that it was built of.
+class PyStructure {
+ public:
+  PyStructure(Scene scene, const std::string& recipe, unsigned threads)
+      : scene_(std::move(scene)), structure_(build(scene_, recipe, {.threads = threads})) {}
+
+  py::array_t<Hit> closest_hits(const Floats& array, unsigned threads) const {
+    const auto rays = rows_of<Ray>(array, "rays");
+    py::array_t<Hit> out(array.shape(0));
+    const auto hits = span_of(out);
+    const py::gil_scoped_release release;
+    in_parallel(rays.size(), threads, [&](std::size_t begin, std::size_t count) {
+      structure_.closest_hits(rays.subspan(begin, count), hits.subspan(begin, count));
+    });
+    return out;
+  }
+
+  py::array_t<bool> any_hits(const Floats& array, unsigned threads) const {
+    const auto rays = rows_of<Ray>(array, "rays");
+    py::array_t<bool> out(array.shape(0));
+    static_assert(sizeof(bool) == sizeof(std::uint8_t));
+    auto* blocked = reinterpret_cast<std::uint8_t*>(out.mutable_data());
+    const py::gil_scoped_release release;
+    in_parallel(rays.size(), threads, [&](std::size_t begin, std::size_t count) {
+      structure_.any_hits(rays.subspan(begin, count), {blocked + begin, count});
+    });
+    return out;
+  }
+
+  py::tuple all_hits(const Floats& array) const {
+    const auto rays = rows_of<Ray>(array, "rays");
+    auto lists = std::make_unique<HitLists>();
+    {
+      const py::gil_scoped_release release;
+      *lists = structure_.all_hits(rays);
+    }
+    const auto offsets = static_cast<py::ssize_t>(lists->offsets.size());
+    py::array_t<std::int64_t> starts(offsets);
+    for (py::ssize_t i = 0; i < offsets; ++i) {
+      starts.mutable_at(i) = static_cast<std::int64_t>(lists->offsets[static_cast<std::size_t>(i)]);
+    }
+    // The array owns the list that it shows.
+    const HitLists* shown = lists.get();
+    const py::capsule owner(lists.release(), [](void* list) { delete static_cast<HitLists*>(list); });
+    return py::make_tuple(starts,
+                          py::array_t<Hit>(static_cast<py::ssize_t>(shown->hits.size()), shown->hits.data(), owner));
+  }
+
+  py::array_t<Hit> first_hits(const Floats& array, std::size_t k) const {
+    const auto rays = rows_of<Ray>(array, "rays");
+    py::array_t<Hit> out({array.shape(0), static_cast<py::ssize_t>(k)});
+    const auto hits = span_of(out);
+    const py::gil_scoped_release release;
+    structure_.first_hits(rays, k, hits);
+    return out;
+  }
+
+  py::array_t<NearestPoint> nearest_points(const Floats& array, float within) const {
+    const auto points = rows_of<Vec3>(array, "points");
+    py::array_t<NearestPoint> out(array.shape(0));
+    const auto nearest = span_of(out);
+    const py::gil_scoped_release release;
+    distances().nearest_points(points, nearest, within);
+    return out;
+  }
+
+  py::array_t<float> signed_distances(const Floats& array) const {
+    const auto points = rows_of<Vec3>(array, "points");
+    py::array_t<float> out(array.shape(0));
+    const auto answers = span_of(out);
+    const py::gil_scoped_release release;
+    distances().signed_distances(points, answers);
+    return out;
+  }
+
+  std::string recipe() const { return structure_.recipe().text(); }
+  std::size_t bytes() const { return structure_.report().bytes; }
+  double build_ms() const { return structure_.report().build_ms; }
+  std::uint64_t triangles() const { return structure_.report().primitives; }
+  std::uint64_t left_out() const { return structure_.report().left_out; }
+  std::string repr() const { return fmt::format("<boxwood.Structure of {} triangles, '{}'>", triangles(), recipe()); }
+
+ private:
+  /// Built when first asked for, without Python's lock.
+  const DistanceQueries& distances() const {
+    std::call_once(once_, [&] { distances_.emplace(scene_); });
+    return *distances_;
+  }
+
+  Scene scene_;
+  Structure structure_;
+  mutable std::once_flag once_;
+  mutable std::optional<DistanceQueries> distances_;
+};
+
+std::unique_ptr<PyStructure> build_arrays(const Floats& vertices, const py::array& faces, const std::string& recipe,
+                                          unsigned threads) {
+  const auto positions = rows_of<Vec3>(vertices, "vertices");
+  Scene scene;
+  scene.add_mesh({positions.begin(), positions.end()}, triangles_of(faces));
+  const py::gil_scoped_release release;
+  return std::make_unique<PyStructure>(std::move(scene), recipe, threads);
+}
+
+std::unique_ptr<PyStructure> build_file(const std::string& scene, const std::string& recipe, unsigned threads) {
+  const py::gil_scoped_release release;
+  return std::make_unique<PyStructure>(load(scene), recipe, threads);
+}
+
+}  // namespace
+}  // namespace boxwood
+
+PYBIND11_MODULE(_core, module) {
+  using namespace boxwood;
+  const py::arg rays("rays"), points("points");
+  // Raised by name in Python; a wrong request is a ValueError, too.
+  static py::exception<Error> error(module, "Error", PyExc_RuntimeError);
+  static py::exception<UsageError> usage(module, "UsageError", py::make_tuple(error, py::handle(PyExc_ValueError)));
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const UsageError& e) {
+      usage(e.what());
+    } catch (const Error& e) {
+      error(e.what());
+    }
+  });
+  PYBIND11_NUMPY_DTYPE(Vec3, x, y, z);
+  PYBIND11_NUMPY_DTYPE(Hit, t, u, v, primitive, instance);
+  PYBIND11_NUMPY_DTYPE(NearestPoint, distance, point, u, v, primitive, instance);
+  module.attr("HIT") = py::dtype::of<Hit>();
+  module.attr("NEAREST_POINT") = py::dtype::of<NearestPoint>();
+  module.attr("NO_PRIMITIVE") = no_primitive;
+
+  module.def("build", build_arrays, py::arg("vertices"), py::arg("faces"), py::arg("recipe") = "default",
+             py::arg("threads") = 0);
+  module.def("load", build_file, py::arg("scene"), py::arg("recipe") = "default", py::arg("threads") = 0);
+
+  const float infinity = std::numeric_limits<float>::infinity();
+  py::class_<PyStructure>(module, "Structure")
+      .def("closest_hits", &PyStructure::closest_hits, rays, py::kw_only(), py::arg("threads") = 1)
+      .def("any_hits", &PyStructure::any_hits, rays, py::kw_only(), py::arg("threads") = 1)
+      .def("all_hits", &PyStructure::all_hits, rays)
+      .def("first_hits", &PyStructure::first_hits, rays, py::arg("k"))
+      .def("nearest_points", &PyStructure::nearest_points, points, py::arg("within") = infinity)
+      .def("signed_distances", &PyStructure::signed_distances, points)
+      .def_property_readonly("recipe", &PyStructure::recipe)
+      .def_property_readonly("bytes", &PyStructure::bytes)
+      .def_property_readonly("build_ms", &PyStructure::build_ms)
+      .def_property_readonly("triangles", &PyStructure::triangles)
+      .def_property_readonly("left_out", &PyStructure::left_out)
+      .def("__repr__", &PyStructure::repr);
+}
