@@ -10,5 +10,10 @@ mkdir -p "$out"
 echo
 "$boxwood" inspect "$bunny" -a default | tee "$out/inspect.txt"
 echo
+rm -rf "$out/study"  # of the last demo
+"$boxwood" study demo --out "$out/study"
+"$boxwood" report "$out/study/store.sqlite" -o "$out/report.html" --force >/dev/null
+echo
 echo "The table is in $out/compare.txt, the tree's statistics in $out/inspect.txt, renderings and heat maps are:"
 ls "$out"/*.png
+echo "The report, for a browser, is $out/report.html"

@@ -5,6 +5,7 @@ packages="g++ cmake make ninja-build ccache mold
 libtbb-dev libfmt-dev libhwy-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinyexr-dev libembree-dev
 libglfw3-dev libimgui-dev libgl-dev xvfb libgl1-mesa-dri xdotool
 libboost-math-dev libsqlite3-dev libtoml11-dev libgtest-dev libbenchmark-dev zlib1g-dev
+chromium nodejs npm
 glmark2-data"
 if [ "${1:-}" = --lint ]; then packages="$packages clang-format clang-tidy"; fi
 

@@ -66,6 +66,7 @@ void add_cameras(CommandSet& commands);
 void add_bench(CommandSet& commands);
 void add_study(CommandSet& commands);
 void add_results(CommandSet& commands);
+void add_report(CommandSet& commands);
 void add_recipes(CommandSet& commands);
 void add_scenes(CommandSet& commands);
 void add_view_command(CommandSet& commands);

@@ -29,6 +29,7 @@ constexpr void (*all_commands[])(CommandSet&) = {
     add_bench,
     add_study,
     add_results,
+    add_report,
     add_recipes,
     add_scenes,
     // clang-format on

@@ -7,6 +7,8 @@
 
 namespace boxwood {
 
+inline constexpr float pi = std::numbers::pi_v<float>;
+
 struct SineCosine {
   double sine, cosine;
 };

@@ -7,7 +7,7 @@
 namespace boxwood {
 namespace {
 
-void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
+void shade_ao(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
   std::vector<Hit> hits(batch.rays.size());
   tracer.closest_hits("primary", batch.rays, hits);
 
@@ -30,6 +30,8 @@ void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& trac
 
 }  // namespace
 
-Integrator ao_integrator() { return {"ao", "ambient occlusion within a radius, one ray per sample", shade, nullptr}; }
+Integrator ao_integrator() {
+  return {"ao", "ambient occlusion within a radius, one ray per sample", shade_ao, nullptr};
+}
 
 }  // namespace boxwood

@@ -6,7 +6,7 @@
 namespace boxwood {
 namespace {
 
-void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
+void shade_eyelight(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
   std::vector<Hit> hits(batch.rays.size());
   tracer.closest_hits("primary", batch.rays, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -20,7 +20,7 @@ void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& trac
 }  // namespace
 
 Integrator eyelight_integrator() {
-  return {"eyelight", "a light at the eye: colour times the cosine between view and surface", shade, nullptr};
+  return {"eyelight", "a light at the eye: colour times the cosine between view and surface", shade_eyelight, nullptr};
 }
 
 }  // namespace boxwood

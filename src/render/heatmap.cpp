@@ -6,7 +6,7 @@
 namespace boxwood {
 namespace {
 
-void shade(const ShadingContext&, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
+void shade_heatmap(const ShadingContext&, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
   std::vector<Hit> hits(batch.rays.size());
   std::vector<RayCounters> counters(batch.rays.size());
   tracer.closest_hits_counted("primary", batch.rays, hits, counters);
@@ -30,7 +30,7 @@ void develop(const RenderSettings& settings, RenderResult& result) {
 }  // namespace
 
 Integrator heatmap_integrator() {
-  return {"heatmap", "what primary rays cost: red primitive tests, green inner nodes visited", shade, develop};
+  return {"heatmap", "what primary rays cost: red primitive tests, green inner nodes visited", shade_heatmap, develop};
 }
 
 }  // namespace boxwood

@@ -10,8 +10,6 @@
 namespace boxwood {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 /// How much a triangle counts among the surfaces, per area.
 float weight_per_area(const Material& material) {
   return luminance(material.emission) * (material.emits_behind ? 2.0f : 1.0f);

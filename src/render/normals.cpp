@@ -4,7 +4,7 @@
 namespace boxwood {
 namespace {
 
-void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
+void shade_normals(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
   std::vector<Hit> hits(batch.rays.size());
   tracer.closest_hits("primary", batch.rays, hits);
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -15,6 +15,8 @@ void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& trac
 
 }  // namespace
 
-Integrator normals_integrator() { return {"normals", "the normal of the triangle seen, as a colour", shade, nullptr}; }
+Integrator normals_integrator() {
+  return {"normals", "the normal of the triangle seen, as a colour", shade_normals, nullptr};
+}
 
 }  // namespace boxwood

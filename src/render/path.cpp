@@ -160,14 +160,15 @@ class PathTracer {
   ShadowQueue shadows_;
 };
 
-void shade(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
+void shade_path(const ShadingContext& context, const CameraBatch& batch, Tracer& tracer, std::span<Vec3> radiance) {
   PathTracer(context, batch, tracer, radiance).run();
 }
 
 }  // namespace
 
 Integrator path_integrator() {
-  return {"path", "path tracing: all light that reaches the camera, over up to 'depth' bounces", shade, nullptr, true};
+  return {"path", "path tracing: all light that reaches the camera, over up to 'depth' bounces", shade_path, nullptr,
+          true};
 }
 
 }  // namespace boxwood

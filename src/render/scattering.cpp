@@ -9,10 +9,6 @@
 namespace boxwood {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
-float largest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-
 /// In double, so that the last bits of the C library's powers, which differ between machines, are rounded away.
 float power(float base, float exponent) {
   return static_cast<float>(std::pow(static_cast<double>(base), static_cast<double>(exponent)));

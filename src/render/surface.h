@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "boxwood/ray.h"
@@ -15,6 +16,9 @@ struct SurfacePoint {
   float clearance = 0;  ///< a distance off the surface at which rounding can no longer hit it again
   const Material* material = nullptr;
 };
+
+/// The largest component of a colour.
+inline float largest(const Vec3& color) { return std::max({color.x, color.y, color.z}); }
 
 /// Looks up the surface behind a hit. Depends on the mesh and on the hit's instance, primitive, u and v only, computed
 /// in double and rounded once, so shading is the same whichever structure found the hit. Refers to the scene.

@@ -1,9 +1,8 @@
 // A study's result for a terminal.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "options/options.h"
+#include "report/cell_grid.h"
 #include "report/number_text.h"
 #include "report/study_report.h"
 #include "report/table.h"
@@ -11,44 +10,20 @@
 namespace boxwood {
 namespace {
 
-using Levels = std::vector<std::string>;
-
-/// The cell's levels of some factors, in their order.
-Levels levels(const Cell& cell, const std::vector<std::string>& factors) {
-  Levels out;
-  for (const std::string& factor : factors) out.push_back(cell.factors.at(factor));
-  return out;
-}
-
-std::vector<Levels> distinct(const std::vector<Cell>& cells, const std::vector<std::string>& factors) {
-  std::vector<Levels> out;
-  for (const Cell& cell : cells) {
-    Levels one = levels(cell, factors);
-    if (std::ranges::find(out, one) == out.end()) out.push_back(std::move(one));
-  }
-  return out;
-}
-
-std::string cell_text(const Cell& cell) {
-  return cell.exact ? significant(cell.estimate.median) : with_interval(cell.estimate);
-}
-
 std::string table_text(const TableResult& result) {
   const TableSpec& spec = result.spec;
   std::vector<Table::Column> columns;
   for (const std::string& factor : spec.rows) columns.push_back({factor, Align::left});
-  const std::vector<Levels> heads = distinct(result.cells, spec.columns);
-  for (const Levels& head : heads) {
+  const CellGrid grid(result.cells, spec.rows, spec.columns);
+  for (const Levels& head : grid.columns()) {
     columns.push_back({head.empty() ? spec.figure.value : option_text::join(head, " ")});
   }
   Table table(columns);
-  for (const Levels& row : distinct(result.cells, spec.rows)) {
+  for (const Levels& row : grid.rows()) {
     std::vector<std::string> cells = row;
-    for (const Levels& head : heads) {
-      const auto found = std::ranges::find_if(result.cells, [&](const Cell& cell) {
-        return levels(cell, spec.rows) == row && levels(cell, spec.columns) == head;
-      });
-      cells.push_back(found == result.cells.end() ? "–" : cell_text(*found));
+    for (const Levels& head : grid.columns()) {
+      const Cell* cell = grid.find(row, head);
+      cells.push_back(cell ? cell_text(*cell) : "–");
     }
     table.add(std::move(cells));
   }

@@ -10,7 +10,7 @@
 namespace boxwood {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 bool was_measured_with(const RunSpec& run, const Subject& subject) {
   if (subject.threads != run.threads) return false;
@@ -77,7 +77,7 @@ void Observations::add(const Measurement& measurement) {
   Samples& samples = s.rays.empty() ? structures_[{s.scene, s.recipe}] : rays_[{s.scene, s.recipe, s.rays, s.view}];
   for (const StoredValue& value : measurement.values) {
     std::vector<double>& series = samples[value.metric];
-    if (series.size() <= s.repetition) series.resize(s.repetition + 1, missing);
+    if (series.size() <= s.repetition) series.resize(s.repetition + 1, not_measured);
     series[s.repetition] = value.value;
   }
   if (s.view.empty()) return;
@@ -112,7 +112,7 @@ std::vector<double> Observations::samples(const Expression& value, const std::st
       const std::optional<double> found = sample(of_rays, metric, r);
       return found ? found : sample(of_structure, metric, r);
     });
-    out.push_back(result.value_or(missing));
+    out.push_back(result.value_or(not_measured));
   }
   return out;
 }

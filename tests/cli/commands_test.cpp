@@ -17,11 +17,6 @@ const std::vector<std::string> small_comparison = {
     "compare", "generate:cube(4)", "--size", "24x16",          "--repeat", "3",
     "-a",      "binned > binary",  "-a",     "sweep > wide(8)"};
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 void expect_estimate(const json& value, std::uint64_t n) {
   ASSERT_TRUE(value.is_object()) << value;
   EXPECT_LE(value.at("low"), value.at("median"));

@@ -8,11 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 const char* const scene = R"(Scale -1 1 1 LookAt 0 1 3  0 0 0  0 1 0
 Camera "perspective" "float fov" 50
 Film "rgb" "integer xresolution" 40 "integer yresolution" 30

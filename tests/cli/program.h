@@ -41,4 +41,10 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// `arguments` and then `more`.
+inline std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
 }  // namespace boxwood::testing

@@ -11,10 +11,10 @@
 namespace boxwood::test {
 namespace {
 
-const Box cube{{0, 0, 0}, {1, 1, 1}};
+const Box unit_cube{{0, 0, 0}, {1, 1, 1}};
 
 std::unique_ptr<CostModel> model_of(const std::string& text, const KnownUse& use) {
-  return CostChoice::parse(text).make({cube, &use});
+  return CostChoice::parse(text).make({unit_cube, &use});
 }
 
 SegmentList all_of(std::size_t count) {
@@ -42,7 +42,7 @@ void sides_of(const std::vector<Box>& boxes, std::vector<Side>& left, std::vecto
 }
 
 TEST(Segments, Chains_CountedAsOneByOne) {
-  const std::vector<Segment> segments = segments_of(scattered_rays(20000, cube, 1));
+  const std::vector<Segment> segments = segments_of(scattered_rays(20000, unit_cube, 1));
   const SegmentList list = all_of(segments.size());
   std::vector<Side> left, right;
   sides_of(small_boxes(17, 0.2f, 2), left, right);
@@ -81,8 +81,8 @@ float weight_of(std::size_t n) {
   use.rays.push_back(scattered_rays(n, Box{{0, 0, 0}, {0.1f, 0.1f, 0.1f}}, 3));
   for (float& end : use.rays[0].ends) end = 0.01f;
   const Box away{{0.5f, 0.5f, 0.5f}, {1, 1, 1}};
-  const float by_area = probability(*CostChoice::parse("sah").make({}), cube, {away, 1});
-  return 1 - probability(*model_of("rdh(alpha=0.9, beta=0.1)", use), cube, {away, 1}) / by_area;
+  const float by_area = probability(*CostChoice::parse("sah").make({}), unit_cube, {away, 1});
+  return 1 - probability(*model_of("rdh(alpha=0.9, beta=0.1)", use), unit_cube, {away, 1}) / by_area;
 }
 
 TEST(Rdh, FewRays_SayLittle) {
@@ -108,15 +108,15 @@ TEST(Rdh, UniformLines_AgreeWithSurfaceArea) {
     const Vec3 a = uniform_sphere(random.uniform(), random.uniform()),
                b = uniform_sphere(random.uniform(), random.uniform());
     Ray ray;
-    ray.origin = cube.center() + a, ray.direction = b - a;
+    ray.origin = unit_cube.center() + a, ray.direction = b - a;
     rays.rays.push_back(ray);
     rays.ends.push_back(1);
   }
   use.rays.push_back(std::move(rays));
   const auto rdh = model_of("rdh(alpha=1, beta=1000000)", use), sah = CostChoice::parse("sah").make({});
   for (const Box& part : small_boxes(10, 0.9f, 6)) {
-    const float expected = probability(*sah, cube, {part, 1});
-    EXPECT_NEAR(probability(*rdh, cube, {part, 1}), expected, 5 * std::sqrt(expected / 100000));
+    const float expected = probability(*sah, unit_cube, {part, 1});
+    EXPECT_NEAR(probability(*rdh, unit_cube, {part, 1}), expected, 5 * std::sqrt(expected / 100000));
   }
 }
 
@@ -198,7 +198,7 @@ TEST(Picture, PartsOfABox_CoverLess) {
   for (int i = 0; i < 2000; ++i) {
     const Picture picture(window_at(point_in(random, {{-1, -1, -1}, {2, 2, 2}})));
     Box outer;
-    outer.grow(point_in(random, cube)), outer.grow(point_in(random, cube));
+    outer.grow(point_in(random, unit_cube)), outer.grow(point_in(random, unit_cube));
     Box inner;
     inner.grow(point_in(random, outer)), inner.grow(point_in(random, outer));
     EXPECT_LE(picture.area_covered(inner), picture.area_covered(outer) + 1e-5);
@@ -218,7 +218,7 @@ TEST(Perspective, EyeInTheNode_One) {
   use.windows.push_back(window_at({0.5f, 0.5f, 0.5f}));
   const Box part{{0.4f, 0.4f, 0.4f}, {0.6f, 0.6f, 0.6f}};
   for (const std::string model : {"perspective", "perspective(literal=on)"}) {
-    EXPECT_EQ(probability(*model_of(model, use), cube, {part, 1}), 1) << model;
+    EXPECT_EQ(probability(*model_of(model, use), unit_cube, {part, 1}), 1) << model;
   }
 }
 
@@ -238,13 +238,14 @@ TEST(Parallel, AnyBox_OutlineAsCounted) {
   const Vec3 direction{1, -2, 0.5f};
   use.windows.push_back({{0, 0, 0}, direction, {1, 0, 0}, {0, 1, 0}});
   const auto model = model_of("parallel", use);
-  // Parallel rays from a plane before the cube.
+  // Parallel rays from a plane before the unit_cube.
   Random random(13);
   std::vector<Segment> segments;
   const Basis basis(normalize(direction));
   for (int i = 0; i < 100000; ++i) {
     Ray ray;
-    ray.origin = cube.center() - basis.normal * 3 + basis.x * random.uniform(-1, 1) + basis.y * random.uniform(-1, 1);
+    ray.origin =
+        unit_cube.center() - basis.normal * 3 + basis.x * random.uniform(-1, 1) + basis.y * random.uniform(-1, 1);
     ray.direction = basis.normal;
     segments.emplace_back(ray, 1e9f);
   }
@@ -252,7 +253,7 @@ TEST(Parallel, AnyBox_OutlineAsCounted) {
     return static_cast<double>(std::ranges::count_if(segments, [&](const Segment& s) { return s.meets(box); }));
   };
   for (const Box& box : small_boxes(5, 0.9f, 14)) {
-    EXPECT_NEAR(probability(*model, cube, {box, 1}), met(box) / met(cube), 0.01);
+    EXPECT_NEAR(probability(*model, unit_cube, {box, 1}), met(box) / met(unit_cube), 0.01);
   }
 }
 
@@ -335,14 +336,14 @@ TEST(CostChoice, WrongText_SaysWhatIsRight) {
 
 TEST(CostChoice, NothingKnown_Refused) {
   for (const std::string text : {"rdh", "osah", "perspective", "parallel", "blend(sah, rdh)"}) {
-    EXPECT_THROW(CostChoice::parse(text).make({cube, nullptr}), UsageError) << text;
+    EXPECT_THROW(CostChoice::parse(text).make({unit_cube, nullptr}), UsageError) << text;
   }
 }
 
 TEST(Blend, Ends_AreItsParts) {
   const std::vector<Box> boxes = small_boxes(800, 0.1f, 19);
   KnownUse use;
-  use.rays.push_back(scattered_rays(1000, cube, 20));
+  use.rays.push_back(scattered_rays(1000, unit_cube, 20));
   const auto tree = [&](const std::string& cost) {
     return tree_by("binned(cost=" + cost + ")", input_of(boxes, &use));
   };

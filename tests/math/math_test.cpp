@@ -11,7 +11,7 @@
 namespace boxwood {
 namespace {
 
-class Random {
+class Points {
  public:
   float operator()(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
   Vec3 point(float low, float high) { return {(*this)(low, high), (*this)(low, high), (*this)(low, high)}; }
@@ -38,7 +38,7 @@ TEST(Box, LongestAxisPrefersTheFirstOnATie) {
 }
 
 TEST(Transform, InverseUndoesTheMap) {
-  Random random;
+  Points random;
   for (int i = 0; i < 100; ++i) {
     const Transform map = Transform::translate(random.point(-5, 5)) *
                           Transform::rotate(normalize(random.point(-1, 1)), random(-3, 3)) *
@@ -51,7 +51,7 @@ TEST(Transform, InverseUndoesTheMap) {
 TEST(Transform, SingularMapHasNoInverse) { EXPECT_THROW((void)Transform::scale({1, 0, 1}).inverse(), Error); }
 
 TEST(Transform, MappedBoxHoldsEveryMappedPoint) {
-  Random random;
+  Points random;
   for (int i = 0; i < 100; ++i) {
     const Transform map = Transform::translate(random.point(-500, 500)) *
                           Transform::rotate(normalize(random.point(-1, 1)), random(-3, 3));
@@ -66,7 +66,7 @@ TEST(Transform, MappedBoxHoldsEveryMappedPoint) {
 
 /// Largest distance of a point of the box from what it should hold, found by sampling the triangle.
 TEST(ClipTriangle, BoxHoldsEverySampleInTheRegionAndLittleElse) {
-  Random random;
+  Points random;
   for (int i = 0; i < 300; ++i) {
     const Vec3 a = random.point(-1, 1), b = random.point(-1, 1), c = random.point(-1, 1);
     Box region;

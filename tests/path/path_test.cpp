@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "boxwood/structure.h"
+#include "math/sampling.h"
 #include "render/render.h"
 #include "render/test_scenes.h"
 
@@ -12,8 +12,6 @@ namespace boxwood {
 namespace {
 
 using namespace testing_scenes;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 /// The same material everywhere.
 Scene made_of(Scene scene, const Material& material) {

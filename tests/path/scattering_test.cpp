@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "math/sampling.h"
 #include "render/tone_map.h"
 
 namespace boxwood {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 SurfacePoint point_of(const Material& material) {
   SurfacePoint point;

@@ -18,7 +18,7 @@ namespace boxwood {
 namespace {
 
 constexpr unsigned axis_bits = 10, code_bits = 3 * axis_bits, treelet_bits = 12;
-constexpr std::size_t grain = 1 << 13;
+constexpr std::size_t code_grain = 1 << 13;
 
 struct HlbvhOptions {
   std::uint32_t leaf = 4;
@@ -38,7 +38,7 @@ class SortedCodes {
   explicit SortedCodes(std::span<const Reference> references) : keys_(references.size()) {
     const Box4 box = centers_of(references);
     const Float4 extent = box.upper - box.lower;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), grain), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), code_grain), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const Float4 center = box4(references[i]).lower + box4(references[i]).upper;
         std::uint64_t code = 0;

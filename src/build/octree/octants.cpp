@@ -10,7 +10,7 @@
 namespace boxwood {
 namespace {
 
-constexpr std::size_t parallel_size = 1 << 14;
+constexpr std::size_t parallel_set_size = 1 << 14;
 
 // [axis][half]: the octants in that half.
 constexpr std::uint8_t halves[3][2] = {{0x55, 0xaa}, {0x33, 0xcc}, {0x0f, 0xf0}};
@@ -33,10 +33,10 @@ Octants OctantFinder::find(std::span<const std::uint32_t> set, const OctreeCell&
   const auto fill = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) masks[i] = mask_of(set[i], octants, middle);
   };
-  if (set.size() < parallel_size) {
+  if (set.size() < parallel_set_size) {
     fill(0, set.size());
   } else {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), parallel_size / 4),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, set.size(), parallel_set_size / 4),
                       [&](const auto& range) { fill(range.begin(), range.end()); });
   }
   Octants out{masks, {}};

@@ -24,7 +24,7 @@ BihNode encode_leaf(const Tree::Node& node) {
   return out;
 }
 
-BihNodes encode_nodes(const Tree& tree) {
+BihNodes encode_bih(const Tree& tree) {
   check_walkable(tree, 2, "bih");
   BihNodes out;
   if (tree.empty()) return out;
@@ -55,7 +55,7 @@ BihNodes encode_nodes(const Tree& tree) {
   return out;
 }
 
-struct Choose {
+struct ChooseBih {
   auto operator()(const Level<BihNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return bih_triangle_kernels(options);
   }
@@ -66,7 +66,7 @@ struct Choose {
 
 std::shared_ptr<const Layout> encode(const BihOptions&, Tree tree, const Contents& contents,
                                      const TraceOptions& options) {
-  return encode_level(std::move(tree), contents, options, encode_nodes, Choose{});
+  return encode_level(std::move(tree), contents, options, encode_bih, ChooseBih{});
 }
 
 }  // namespace

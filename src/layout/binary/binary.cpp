@@ -10,7 +10,7 @@ namespace {
 
 struct BinaryOptions {};  // no knobs
 
-BinaryNodes encode_nodes(const Tree& tree) {
+BinaryNodes encode_binary(const Tree& tree) {
   check_walkable(tree, 2, "binary");
   BinaryNodes out;
   out.nodes.resize(tree.nodes.size());
@@ -22,7 +22,7 @@ BinaryNodes encode_nodes(const Tree& tree) {
   return out;
 }
 
-struct Choose {
+struct ChooseBinary {
   auto operator()(const Level<BinaryNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return binary_triangle_kernels(options);
   }
@@ -33,7 +33,7 @@ struct Choose {
 
 std::shared_ptr<const Layout> encode(const BinaryOptions&, Tree tree, const Contents& contents,
                                      const TraceOptions& options) {
-  return encode_level(std::move(tree), contents, options, encode_nodes, Choose{});
+  return encode_level(std::move(tree), contents, options, encode_binary, ChooseBinary{});
 }
 
 }  // namespace

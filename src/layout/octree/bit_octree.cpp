@@ -64,7 +64,7 @@ void write_field(const Plan& plan, BitOctreeNodes& out) {
   }
 }
 
-struct Choose {
+struct ChooseBitOctree {
   BitForm form;
   WordBits word;
 
@@ -94,7 +94,7 @@ std::shared_ptr<const Layout> encode(const BitOctreeOptions& options, Tree tree,
   const auto nodes_of = [&](const OctreeTopology& topology, OctreeReferences& references) {
     return encode_bit_octree(topology, tree, options, references);
   };
-  return encode_octree(tree, contents, trace, options.mailbox, nodes_of, Choose{options.form, options.word});
+  return encode_octree(tree, contents, trace, options.mailbox, nodes_of, ChooseBitOctree{options.form, options.word});
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct OctreeLayoutOptions {
 constexpr std::uint64_t most = 0x7fffffff;  // of nodes and of references: 31 bits
 
 /// Depth first, siblings together.
-OctreeNodes encode_nodes(const OctreeTopology& topology, const Tree& tree, OctreeReferences& references) {
+OctreeNodes encode_octree_words(const OctreeTopology& topology, const Tree& tree, OctreeReferences& references) {
   OctreeNodes out;
   out.words.assign(8, OctreeNodes::empty_leaf);
   out.sizes.assign(8, 0);
@@ -49,7 +49,7 @@ OctreeNodes encode_nodes(const OctreeTopology& topology, const Tree& tree, Octre
   return out;
 }
 
-struct Choose {
+struct ChooseOctree {
   auto operator()(const Level<OctreeNodes, TriangleLeaves>&) const { return octree_triangle_kernels(); }
   auto operator()(const Level<OctreeNodes, InstanceLeaves>&) const { return octree_instance_kernels(); }
 };
@@ -57,9 +57,9 @@ struct Choose {
 std::shared_ptr<const Layout> encode(const OctreeLayoutOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
   const auto nodes_of = [&](const OctreeTopology& topology, OctreeReferences& references) {
-    return encode_nodes(topology, tree, references);
+    return encode_octree_words(topology, tree, references);
   };
-  return encode_octree(tree, contents, trace, options.mailbox, nodes_of, Choose{});
+  return encode_octree(tree, contents, trace, options.mailbox, nodes_of, ChooseOctree{});
 }
 
 }  // namespace

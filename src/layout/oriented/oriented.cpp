@@ -108,7 +108,7 @@ class Encoder {
   std::vector<std::uint32_t> places_;
 };
 
-struct Choose {
+struct ChooseOriented {
   auto operator()(const Level<OrientedNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return oriented_triangle_kernels(options);
   }
@@ -122,7 +122,7 @@ std::shared_ptr<const Layout> encode(const OrientedOptions& options, Tree tree, 
   // The references go to the leaves before the nodes are made, which need them to find the triangles.
   OrientedNodes nodes = encode_oriented(tree, contents.mesh, options.k, options.area);
   return encode_level(
-      std::move(tree), contents, trace, [&](const Tree&) { return std::move(nodes); }, Choose{});
+      std::move(tree), contents, trace, [&](const Tree&) { return std::move(nodes); }, ChooseOriented{});
 }
 
 }  // namespace

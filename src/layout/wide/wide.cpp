@@ -60,7 +60,7 @@ WideNodes encode_nodes(const Tree& tree, std::uint32_t k) {
   return out;
 }
 
-struct Choose {
+struct ChooseWide {
   auto operator()(const Level<WideNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return wide_triangle_kernels(options);
   }
@@ -73,7 +73,7 @@ std::shared_ptr<const Layout> encode(const WideOptions& options, Tree tree, cons
                                      const TraceOptions& trace) {
   if (simd_wide_supports(options.k, tree, contents, trace)) return encode_simd_wide(options.k, tree, contents);
   const auto nodes_of = [&](const Tree& t) { return encode_nodes(t, options.k); };
-  return encode_level(std::move(tree), contents, trace, nodes_of, Choose{});
+  return encode_level(std::move(tree), contents, trace, nodes_of, ChooseWide{});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::uint64_t fingerprint(const Answers& answers) {
   return print.value();
 }
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_answers(const ProbeInput& input) {
   Answers answers(*input.rays);
   trace_rays(input.structure, *input.rays, answers);
   return {{"rays", static_cast<double>(input.rays->rays.size())},
@@ -41,7 +41,7 @@ Probe answers_probe() {
           {{"rays", "rays", "rays in the set"},
            {"hits", "rays", "of those, how many hit something"},
            {"answers_hash", "hash", "the same when every ray is answered alike, to the bit"}},
-          measure};
+          measure_answers};
 }
 
 }  // namespace boxwood

@@ -4,7 +4,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_build(const ProbeInput& input) {
   const double wall_ms = input.structure.report().build_ms;
   return {{"build_ms", input.threads == 1 ? input.build_cpu_ms : wall_ms}, {"build_wall_ms", wall_ms}};
 }
@@ -18,7 +18,7 @@ Probe build_probe() {
           "how long building takes",
           {{"build_ms", "ms", "time to build: CPU time on one thread, else wall time"},
            {"build_wall_ms", "ms", "wall time to build"}},
-          measure};
+          measure_build};
 }
 
 }  // namespace boxwood

@@ -8,7 +8,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_image(const ProbeInput& input) {
   if (input.rays->kind != "primary") return {};
   RenderSettings settings;
   settings.camera = input.view.camera;
@@ -30,7 +30,7 @@ Probe image_probe() {
           false,
           "a fingerprint of the picture (primary rays only)",
           {{"image_hash", "hash", "the same when the pictures are the same, to the bit"}},
-          measure};
+          measure_image};
 }
 
 }  // namespace boxwood

@@ -22,7 +22,7 @@ const std::vector<Metric>& metrics() {
   return all;
 }
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_layout(const ProbeInput& input) {
   std::vector<Value> values;
   for (const LayoutFact& fact : input.structure.report().facts) values.push_back({fact.name, fact.figure()});
   return values;
@@ -31,7 +31,7 @@ std::vector<Value> measure(const ProbeInput& input) {
 }  // namespace
 
 Probe layout_probe() {
-  return {"layout", ProbeScope::structure, false, "what the layout tells of itself", metrics(), measure};
+  return {"layout", ProbeScope::structure, false, "what the layout tells of itself", metrics(), measure_layout};
 }
 
 }  // namespace boxwood

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t epo_samples = 20000;
 
 /// Of scenes of one tree; others have no single figure.
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_quality(const ProbeInput& input) {
   if (!input.use || !input.scene.single_level() || input.trees().empty()) return {};
   const KnownUse known = use_of_mesh(*input.use, input.scene, 0, {});
   const TreeMetrics metrics = tree_metrics(input.trees().front(), input.scene.meshes.front(), known, epo_samples);
@@ -32,7 +32,7 @@ Probe quality_probe() {
            {"lcv", "leaves", "standard deviation of the leaves that a ray of the first view meets"},
            {"lcv_of_lines", "leaves", "the same of uniform lines"},
            {"ray_cost", "", "inner nodes and references that a ray of the first view meets, on average"}},
-          measure};
+          measure_quality};
 }
 
 }  // namespace boxwood

@@ -4,7 +4,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_size(const ProbeInput& input) {
   const BuildReport& report = input.structure.report();
   std::vector<Value> values = {{"bytes", static_cast<double>(report.bytes)},
                                {"primitives", static_cast<double>(report.primitives)}};
@@ -27,7 +27,7 @@ Probe size_probe() {
            {"primitives", "triangles", "usable unique triangles"},
            {"nodes", "nodes", "inner nodes and leaves"},
            {"sah_cost", "", "surface area cost of the tree"}},
-          measure};
+          measure_size};
 }
 
 }  // namespace boxwood

@@ -5,7 +5,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_splits(const ProbeInput& input) {
   if (input.trees().empty()) return {};
   double sum = 0;
   for (const Tree& tree : input.trees()) sum += split_cost_sum(tree);
@@ -20,7 +20,7 @@ Probe splits_probe() {
           false,
           "what splits cost, each by itself",
           {{"split_cost_sum", "", "sum over inner nodes of 1 and, per child, references times its part of the area"}},
-          measure};
+          measure_splits};
 }
 
 }  // namespace boxwood

@@ -5,7 +5,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_tests(const ProbeInput& input) {
   const CounterTotals totals = count_tests(input.structure, *input.rays);
   return {{"node_tests", static_cast<double>(totals.node_tests)},
           {"node_hits", static_cast<double>(totals.node_hits)},
@@ -28,7 +28,7 @@ Probe tests_probe() {
            {"primitive_tests", "tests", "triangles tested"},
            {"steps", "nodes", "inner nodes visited"},
            {"leaf_visits", "leaves", "leaves visited"}},
-          measure};
+          measure_tests};
 }
 
 }  // namespace boxwood

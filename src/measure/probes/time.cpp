@@ -6,7 +6,7 @@
 namespace boxwood {
 namespace {
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_time(const ProbeInput& input) {
   const Clock clock = input.threads == 1 ? Clock::thread_cpu : Clock::wall;
   Answers answers(*input.rays);
   const double begin = now(clock);
@@ -22,7 +22,7 @@ Probe time_probe() {
           true,
           "how long the rays take",
           {{"trace_ms", "ms", "time to trace all rays of the set: CPU time on one thread, else wall time"}},
-          measure};
+          measure_time};
 }
 
 }  // namespace boxwood

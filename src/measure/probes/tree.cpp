@@ -48,7 +48,7 @@ Shape shape_of(const std::vector<Tree>& trees) {
   return shape;
 }
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_tree(const ProbeInput& input) {
   if (input.trees().empty()) return {};
   const Shape shape = shape_of(input.trees());
   return {{"inner_nodes", shape.inner_nodes},
@@ -76,7 +76,7 @@ Probe tree_probe() {
            {"leaf_size", "references", "most references that a leaf has"},
            {"upper_overlap", "", "area of overlap between siblings over their parent's area, mean of the upper levels"},
            {"lower_overlap", "", "the same of the lower levels"}},
-          measure};
+          measure_tree};
 }
 
 }  // namespace boxwood

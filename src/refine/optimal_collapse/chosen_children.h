@@ -18,7 +18,7 @@ struct CollapsedNode {
 /// Chooses what hangs below a node of the collapsed tree. One per thread.
 class ChildChooser {
  public:
-  ChildChooser(const Tree& tree, const CollapseCosts& costs, const CollapseOptions& options)
+  ChildChooser(const Tree& tree, const CollapseCosts& costs, const OptimalCollapseOptions& options)
       : tree_(tree), costs_(costs), options_(options) {}
 
   /// The at most k children of `node` at the least cost; then, with options.pack, leaves are joined and nodes opened in
@@ -40,7 +40,7 @@ class ChildChooser {
 
   const Tree& tree_;
   const CollapseCosts& costs_;
-  CollapseOptions options_;
+  OptimalCollapseOptions options_;
   std::vector<Candidate> chosen_;
 };
 

@@ -17,7 +17,7 @@ constexpr std::size_t jobs = 256;
 
 }  // namespace
 
-CollapseCosts::CollapseCosts(const Tree& tree, const CollapseOptions& options)
+CollapseCosts::CollapseCosts(const Tree& tree, const OptimalCollapseOptions& options)
     : tree_(tree),
       options_(options),
       stride_(options.k <= narrow ? narrow : max_collapse_width),

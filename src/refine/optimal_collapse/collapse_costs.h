@@ -9,7 +9,7 @@ namespace boxwood {
 inline constexpr std::uint32_t max_collapse_width = 16;
 
 /// What the collapse minimises: one visit of an inner node costs as much as one block of references tested in a leaf.
-struct CollapseOptions {
+struct OptimalCollapseOptions {
   std::uint32_t k = 8;      ///< most children of a node, 2…max_collapse_width
   std::uint32_t leaf = 4;   ///< most references in a leaf that is made by merging
   std::uint32_t block = 4;  ///< references tested at the price of one
@@ -21,7 +21,7 @@ struct CollapseOptions {
 /// node, 68 for k above 8.
 class CollapseCosts {
  public:
-  CollapseCosts(const Tree& tree, const CollapseOptions& options);
+  CollapseCosts(const Tree& tree, const OptimalCollapseOptions& options);
 
   /// Least cost of a node's subtree as at most `count` in 1…k - 1 nodes. Area times visits and blocks.
   float cost(std::uint32_t node, std::uint32_t count) const { return costs_of(node)[count - 1]; }
@@ -42,7 +42,7 @@ class CollapseCosts {
   float leaf_cost(const Box& bounds, std::uint32_t references) const;
 
   const Tree& tree_;
-  CollapseOptions options_;
+  OptimalCollapseOptions options_;
   std::uint32_t stride_;
   /// Of each node `stride_` of them: as one node, as up to two, …, as up to k - 1; then, where k would follow, what its
   /// children cost when they are at most k.

@@ -15,7 +15,7 @@ namespace {
 /// Writes one node of the collapsed tree. One per thread.
 class CollapsedWriter {
  public:
-  CollapsedWriter(const Tree& tree, const CollapseCosts& costs, const CollapseOptions& options)
+  CollapsedWriter(const Tree& tree, const CollapseCosts& costs, const OptimalCollapseOptions& options)
       : tree_(tree), costs_(costs), chooser_(tree, costs, options) {}
 
   void operator()(const CollapsedNode& item, Tree::Node& node, std::vector<CollapsedNode>& children,
@@ -57,11 +57,7 @@ class CollapsedWriter {
   ChildChooser chooser_;
 };
 
-bool is_binary(const Tree& tree) {
-  return std::ranges::all_of(tree.nodes, [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
-}
-
-Tree optimal_collapse(const CollapseOptions& options, Tree tree) {
+Tree optimal_collapse(const OptimalCollapseOptions& options, Tree tree) {
   if (tree.nodes.size() < 2) return tree;
   if (!is_binary(tree)) tree = relink(link(tree), tree);
   const CollapseCosts costs(tree, options);
@@ -74,15 +70,16 @@ Tree optimal_collapse(const CollapseOptions& options, Tree tree) {
 }  // namespace
 
 Stage optimal_collapse_stage() {
-  OptionsOf<CollapseOptions> options;
-  options.integer("k", &CollapseOptions::k, 2, max_collapse_width, "most children per node")
+  OptionsOf<OptimalCollapseOptions> options;
+  options.integer("k", &OptimalCollapseOptions::k, 2, max_collapse_width, "most children per node")
       .positional()
-      .integer("leaf", &CollapseOptions::leaf, 1, 64, "most references in a leaf made of smaller ones")
-      .integer("block", &CollapseOptions::block, 1, 16, "references tested at the price of one node")
-      .flag("pack", &CollapseOptions::pack, "join leaves of one node, also distant ones, where the cost does not grow");
-  return refinement_stage<CollapseOptions>("optimal-collapse", "k-wide nodes and leaves at the least cost there is",
-                                           "Wald et al. 2008; Ylitie et al. 2017", options, optimal_collapse,
-                                           [](const CollapseOptions& o) { return o.k; });
+      .integer("leaf", &OptimalCollapseOptions::leaf, 1, 64, "most references in a leaf made of smaller ones")
+      .integer("block", &OptimalCollapseOptions::block, 1, 16, "references tested at the price of one node")
+      .flag("pack", &OptimalCollapseOptions::pack,
+            "join leaves of one node, also distant ones, where the cost does not grow");
+  return refinement_stage<OptimalCollapseOptions>(
+      "optimal-collapse", "k-wide nodes and leaves at the least cost there is", "Wald et al. 2008; Ylitie et al. 2017",
+      options, optimal_collapse, [](const OptimalCollapseOptions& o) { return o.k; });
 }
 
 }  // namespace boxwood

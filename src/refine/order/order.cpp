@@ -19,10 +19,6 @@ struct OrderOptions {
   float traversal_cost = 1;
 };
 
-bool is_binary(const Tree& tree) {
-  return std::ranges::all_of(tree.nodes, [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
-}
-
 Orders orders_of(const OrderOptions& options, const Tree& tree, const RefineContext& context) {
   switch (options.by) {
     case Rule::rtsah:

@@ -1,5 +1,6 @@
 #include "refine/reinsert/link_tree.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "tree/assemble.h"
@@ -59,6 +60,10 @@ class Linker {
 };
 
 }  // namespace
+
+bool is_binary(const Tree& tree) {
+  return std::ranges::all_of(tree.nodes, [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
+}
 
 LinkTree link(const Tree& tree) { return Linker(tree).run(); }
 

@@ -41,6 +41,9 @@ struct LinkTree {
   static Edge sibling(Edge edge) { return edge ^ 1; }
 };
 
+/// Whether every inner node has two children.
+bool is_binary(const Tree& tree);
+
 /// Takes a tree of at least two leaves apart. Of a node with more than two children it makes a small binary tree,
 /// halving them in the order in which they are stored. O(n).
 LinkTree link(const Tree& tree);

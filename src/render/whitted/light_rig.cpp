@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "boxwood/error.h"
+#include "math/sampling.h"
 #include "options/suggest.h"
 #include "render/lights.h"
 
 namespace boxwood {
 namespace {
 
-constexpr float pi = 3.14159265358979323846f;
 constexpr Vec3 faint{0.1f, 0.1f, 0.1f};
 constexpr int grid = 4;                         // an area light is grid x grid point lights
 constexpr std::size_t most_scene_samples = 16;  // point lights that stand for all glowing surfaces of a scene

@@ -38,8 +38,6 @@ struct RayQueue {
   bool empty() const { return rays.empty(); }
 };
 
-float largest(const Vec3& color) { return std::max({color.x, color.y, color.z}); }
-
 /// Phong's share of a light that arrives along `to_light` (unit, reversed): Lambert plus a lobe round the mirror
 /// direction of the view.
 Vec3 phong(const Material& material, const Vec3& normal, const Vec3& view, const Vec3& to_light) {

@@ -30,7 +30,7 @@ void check_size(const Tree& tree, std::uint64_t inner_nodes) {
 
 constexpr std::uint32_t nothing = 6;  // the bits of a plane that nothing meets
 
-WideSlabNodes encode_nodes(const Tree& tree, const WideSlabOptions& options) {
+WideSlabNodes encode_wide_slab(const Tree& tree, const WideSlabOptions& options) {
   check_walkable(tree, options.k, fmt::format("wide-slab({})", options.k));
   WideSlabNodes out;
   out.k = options.k;
@@ -67,7 +67,7 @@ WideSlabNodes encode_nodes(const Tree& tree, const WideSlabOptions& options) {
   return out;
 }
 
-struct Choose {
+struct ChooseWideSlab {
   std::uint32_t k;
   auto operator()(const Level<WideSlabNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return wide_slab_triangle_kernels(options, k);
@@ -79,8 +79,8 @@ struct Choose {
 
 std::shared_ptr<const Layout> encode(const WideSlabOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
-  const auto nodes_of = [&](const Tree& t) { return encode_nodes(t, options); };
-  return encode_level(std::move(tree), contents, trace, nodes_of, Choose{options.k});
+  const auto nodes_of = [&](const Tree& t) { return encode_wide_slab(t, options); };
+  return encode_level(std::move(tree), contents, trace, nodes_of, ChooseWideSlab{options.k});
 }
 
 }  // namespace

@@ -10,8 +10,6 @@ namespace {
 
 constexpr float unknown_reflectance = 0.5f;
 
-Vec3 grey(float value) { return {value, value, value}; }
-
 /// CIE XYZ to linear sRGB (IEC 61966-2-1).
 Vec3 from_xyz(const Vec3& c) {
   return {3.2406f * c.x - 1.5372f * c.y - 0.4986f * c.z, -0.9689f * c.x + 1.8758f * c.y + 0.0415f * c.z,

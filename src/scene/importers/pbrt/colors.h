@@ -8,6 +8,9 @@
 
 namespace boxwood::pbrt {
 
+inline constexpr Vec3 white{1, 1, 1};
+inline Vec3 grey(float value) { return {value, value, value}; }
+
 /// Colours of parameters, textures included, each of which is replaced by one colour.
 class Colors {
  public:

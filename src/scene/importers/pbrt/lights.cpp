@@ -9,8 +9,6 @@
 namespace boxwood::pbrt {
 namespace {
 
-constexpr Vec3 white{1, 1, 1};
-
 float cosine_of_degrees(float degrees) { return std::cos(degrees * std::numbers::pi_v<float> / 180); }
 
 void note_picture(const Parameters& parameters, const std::string& type, Notes& notes) {

@@ -9,10 +9,7 @@
 namespace boxwood::pbrt {
 namespace {
 
-constexpr Vec3 white{1, 1, 1};
 constexpr float smoothest_alpha = 0.02f;  // below, a rough mirror looks like a smooth one
-
-Vec3 grey(float value) { return {value, value, value}; }
 
 Material diffuse_only(const Vec3& color) {
   Material material;

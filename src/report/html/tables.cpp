@@ -1,0 +1,76 @@
+// Tables that the reader can sort.
+#include <fmt/format.h>
+
+#include "options/options.h"
+#include "report/cell_grid.h"
+#include "report/html/markup.h"
+#include "report/html/sections.h"
+
+namespace boxwood::html {
+namespace {
+
+/// "k = 4, mode = binary or k-way", escaped.
+std::string where_text(const Where& where) {
+  std::string out;
+  for (const auto& [factor, levels] : where) {
+    out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", factor, option_text::join(levels, " or "));
+  }
+  return escaped(out);
+}
+
+/// Ratios are coloured where their whole interval is on one side of 1.
+const char* side(const Cell& cell, bool ratio) {
+  if (!ratio) return "";
+  return cell.estimate.low > 1 ? " up" : cell.estimate.high < 1 ? " down" : "";
+}
+
+std::string cell_html(const Cell* cell, bool ratio) {
+  if (!cell) return "<td class=\"n\">–</td>";
+  return fmt::format("<td class=\"n{}\" data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
+                     side(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
+                     escaped(cell_text(*cell)));
+}
+
+std::string table_html(const TableResult& result, const std::string& prefix) {
+  const TableSpec& spec = result.spec;
+  const bool ratio = !spec.figure.baseline.empty();
+  const CellGrid grid(result.cells, spec.rows, spec.columns);
+  std::string out = fmt::format(
+      "<figure id=\"{}-table-{}\"><figcaption><h3>{}</h3><p>{}</p></figcaption><div class=\"wide\">"
+      "<table class=\"sortable\"><thead><tr>",
+      prefix, escaped(spec.id), escaped(spec.title.empty() ? spec.id : spec.title), figure_note(spec.figure));
+  for (const std::string& factor : spec.rows) out += fmt::format("<th>{}</th>", escaped(factor));
+  for (const Levels& head : grid.columns()) {
+    out += fmt::format("<th class=\"n\">{}</th>",
+                       escaped(head.empty() ? spec.figure.value : option_text::join(head, " · ")));
+  }
+  out += "</tr></thead><tbody>\n";
+  for (const Levels& row : grid.rows()) {
+    out += "<tr>";
+    for (const std::string& level : row) out += fmt::format("<th>{}</th>", escaped(level));
+    for (const Levels& head : grid.columns()) out += cell_html(grid.find(row, head), ratio);
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div></figure>\n";
+}
+
+}  // namespace
+
+std::string figure_note(const FigureSpec& figure) {
+  std::string out = fmt::format("<code>{}</code>", escaped(figure.value));
+  if (!figure.baseline.empty()) {
+    out += fmt::format(", as a ratio: {} over this, above 1 is less than there", where_text(figure.baseline));
+  }
+  if (!figure.where.empty()) out += fmt::format("; {}", where_text(figure.where));
+  return out;
+}
+
+std::string tables_section(const StudyResult& result, const std::string& prefix) {
+  std::string out;
+  for (const TableResult& table : result.tables) {
+    if (!table.cells.empty()) out += table_html(table, prefix);
+  }
+  return out.empty() ? out : fmt::format("<section id=\"{}-tables\"><h2>Tables</h2>\n{}</section>\n", prefix, out);
+}
+
+}  // namespace boxwood::html
