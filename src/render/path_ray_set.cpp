@@ -9,7 +9,7 @@
 namespace boxwood {
 namespace {
 
-constexpr std::size_t pixels_per_block = 1024;
+constexpr std::size_t pixels_per_path_block = 1024;
 
 }  // namespace
 
@@ -29,13 +29,13 @@ std::vector<Ray> path_rays(const RaySetContext& context) {
   const std::vector<std::uint32_t> pixels =
       pixels_in_blocks(settings.width, settings.height, settings.block, settings.seed);
 
-  const std::size_t blocks = (pixels.size() + pixels_per_block - 1) / pixels_per_block;
+  const std::size_t blocks = (pixels.size() + pixels_per_path_block - 1) / pixels_per_path_block;
   std::vector<std::vector<Ray>> traced(blocks);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-    const std::size_t first = block * pixels_per_block;
+    const std::size_t first = block * pixels_per_path_block;
     std::vector<Ray> rays;
     std::vector<SampleKey> keys;
-    for (std::size_t i = first; i < std::min(pixels.size(), first + pixels_per_block); ++i) {
+    for (std::size_t i = first; i < std::min(pixels.size(), first + pixels_per_path_block); ++i) {
       rays.push_back(camera.ray(pixels[i], 0));
       keys.push_back({pixels[i], 0});
     }

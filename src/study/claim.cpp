@@ -18,6 +18,7 @@ using Kind = Expectation::Kind;
 constexpr double significance = 0.05;
 constexpr double negligible = 0.01;  // relative difference that nobody would notice
 constexpr double weak_correlation = 0.5;
+constexpr std::size_t fewest_unrelated = 8;  // cells; of fewer nobody can say so
 
 /// p-values of the cells against `reference`, on logarithms where the figure is a ratio.
 void test_cells(std::vector<JudgedCell>& cells, double reference) {
@@ -206,7 +207,7 @@ void judge_trend(JudgedClaim& claim) {
   claim.verdict = Verdict::inconclusive;
   if (expect.kind == Kind::unrelated) {
     if (found.p_value < significance) claim.verdict = Verdict::does_not_hold;
-    if (found.p_value >= significance && std::fabs(found.rho) < weak_correlation && x.size() > 3)
+    if (found.p_value >= significance && std::fabs(found.rho) < weak_correlation && x.size() >= fewest_unrelated)
       claim.verdict = Verdict::holds;
     return;
   }

@@ -20,7 +20,7 @@ std::size_t shared_sides(const Tree& tree, const Tree::Node& node) {
   return count;
 }
 
-std::vector<Value> measure(const ProbeInput& input) {
+std::vector<Value> measure_slabs(const ProbeInput& input) {
   double ratio = 0, weight = 0, rounding = 0, idle = 0, least_shared = 12;
   for (const Tree& tree : input.trees()) {
     const SlabFit fit = slab_fit(tree);
