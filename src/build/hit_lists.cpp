@@ -56,7 +56,7 @@ std::vector<std::uint32_t> hits_of(const Tree& tree, const Geometry& geometry, c
 
 }  // namespace
 
-HitLists hit_lists(const Tree& tree, const Geometry& geometry, const KnownUse& use) {
+SegmentHits hit_lists(const Tree& tree, const Geometry& geometry, const KnownUse& use) {
   const bool have_any_hit = std::ranges::any_of(
       use.rays, [](const ExpectedRays& rays) { return rays.query == Query::any_hit && !rays.rays.empty(); });
   std::vector<Ray> rays;
@@ -64,7 +64,7 @@ HitLists hit_lists(const Tree& tree, const Geometry& geometry, const KnownUse& u
     if (have_any_hit && set.query != Query::any_hit) continue;
     rays.insert(rays.end(), set.rays.begin(), set.rays.end());
   }
-  HitLists lists;
+  SegmentHits lists;
   for (const Ray& ray : rays) lists.rays.emplace_back(ray, ray.t_far);
   std::vector<std::vector<std::uint32_t>> found(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(),

@@ -135,13 +135,13 @@ TEST(SrdhBuilder, NoRays_AsValidAsAny) {
   for (const Tree::Node& node : tree.nodes) EXPECT_FALSE(node.fixed_order);
 }
 
-TEST(HitLists, AnyRay_HasEveryPrimitiveItHits) {
+TEST(SegmentHits, AnyRay_HasEveryPrimitiveItHits) {
   const Scene scene = soup(300, 0.4f, 6);
   const ExpectedUse use = shadow_rays_in(scene);
   const MeshGeometry geometry(scene.meshes[0]);
   const KnownUse known = use_of_mesh(use, scene, 0, {});
   const Tree tree = tree_of(scene.meshes[0], Recipe::parse("binned > binary"));
-  const HitLists lists = hit_lists(tree, geometry, known);
+  const SegmentHits lists = hit_lists(tree, geometry, known);
   const Structure structure = build(scene, "binned > binary");
   std::size_t differing = 0;
   for (std::uint32_t i = 0; i < 3000; ++i) {

@@ -42,7 +42,7 @@ class Spans {
   std::vector<std::int32_t> change_;
 };
 
-void find_by_rays(const Borders& borders, int axis, const CentersByPrimitive& centers2, const HitLists& lists,
+void find_by_rays(const Borders& borders, int axis, const CentersByPrimitive& centers2, const SegmentHits& lists,
                   const NodeRays& rays, std::uint32_t bins, ShadowSplit& best) {
   const auto last = static_cast<std::int32_t>(bins) - 1;  // borders are 1 … last
   Spans meet_left(bins), meet_right(bins), free_left(bins), free_right(bins);
@@ -95,7 +95,7 @@ void find_by_area(const Borders& borders, int axis, std::uint32_t bins, ShadowSp
 }  // namespace
 
 ShadowSplit find_shadow_split(const ReferenceSet& set, const Centroids& centroids, const CentersByPrimitive& centers2,
-                              const HitLists& lists, const NodeRays& rays, std::uint32_t bins) {
+                              const SegmentHits& lists, const NodeRays& rays, std::uint32_t bins) {
   ShadowSplit best;
   best.mapping = BinMapping(set.centers, bins);
   Bins filled(0, 2, bins);

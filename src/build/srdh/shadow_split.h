@@ -41,6 +41,6 @@ using CentersByPrimitive = std::vector<std::array<float, 3>>;
 /// every ray that meets its box, unless the ray was ended on the other side before. Without rays, the cheapest by
 /// surface area. SAH alternatives study, section 2.13, equation 19 as mended there. O(references + rays bins).
 ShadowSplit find_shadow_split(const ReferenceSet& set, const Centroids& centroids, const CentersByPrimitive& centers2,
-                              const HitLists& lists, const NodeRays& rays, std::uint32_t bins);
+                              const SegmentHits& lists, const NodeRays& rays, std::uint32_t bins);
 
 }  // namespace boxwood

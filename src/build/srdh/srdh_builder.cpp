@@ -18,7 +18,7 @@ struct SrdhOptions {
 
 class SrdhBuilder {
  public:
-  SrdhBuilder(const SrdhOptions& options, BuildInput& input, const Centroids& centroids, const HitLists& lists)
+  SrdhBuilder(const SrdhOptions& options, BuildInput& input, const Centroids& centroids, const SegmentHits& lists)
       : options_(options), references_(input.references), centroids_(centroids), lists_(lists) {
     for (const Reference& reference : references_) {
       if (centers2_.size() <= reference.primitive) centers2_.resize(reference.primitive + std::size_t{1});
@@ -117,7 +117,7 @@ class SrdhBuilder {
   SrdhOptions options_;
   std::span<Reference> references_;
   const Centroids& centroids_;
-  const HitLists& lists_;
+  const SegmentHits& lists_;
   CentersByPrimitive centers2_;
   Tree tree_;
 };
@@ -136,7 +136,7 @@ Tree build_srdh(const SrdhOptions& options, BuildInput input) {
   const Centroids centroids(input, CentroidKind::box);
   // Instances have no triangles of their own: they are put in a tree by surface area.
   if (!input.geometry) return greedy_tree(std::move(input), centroids);
-  const HitLists lists = hit_lists(greedy_tree(input, centroids), *input.geometry, *input.use);
+  const SegmentHits lists = hit_lists(greedy_tree(input, centroids), *input.geometry, *input.use);
   return SrdhBuilder(options, input, centroids, lists).run();
 }
 

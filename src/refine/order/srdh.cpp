@@ -15,7 +15,7 @@ struct Visit {
 
 class SrdhOrder {
  public:
-  SrdhOrder(const Tree& tree, const HitLists& lists) : tree_(tree), rays_(lists.rays), slots_(tree) {
+  SrdhOrder(const Tree& tree, const SegmentHits& lists) : tree_(tree), rays_(lists.rays), slots_(tree) {
     for (std::uint32_t ray = 0; ray < rays_.size(); ++ray) {
       begin_.push_back(hit_slots_.size());
       for (const std::uint32_t primitive : lists.of(ray)) add_slots(primitive);
@@ -112,7 +112,7 @@ class SrdhOrder {
 }  // namespace
 
 Orders order_by_srdh(const Tree& tree, const Geometry& geometry, const KnownUse& use) {
-  const HitLists lists = hit_lists(tree, geometry, use);
+  const SegmentHits lists = hit_lists(tree, geometry, use);
   return SrdhOrder(tree, lists).run();
 }
 
