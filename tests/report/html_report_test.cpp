@@ -42,7 +42,7 @@ StudyResult made_up() {
     plot.figure.value = "trace_ms";
     plot.x = "k";
     plot.panels = {"rays"};
-    result.plots.push_back({plot, cells});
+    result.plots.push_back({plot, cells, {}, {}});
   }
   for (const Verdict verdict : {Verdict::holds, Verdict::does_not_hold, Verdict::inconclusive, Verdict::not_run}) {
     JudgedClaim claim;
@@ -52,7 +52,7 @@ StudyResult made_up() {
     claim.measured = "measured " + claim.spec.id;
     claim.spec.each = {"k", "rays"};
     claim.verdict = verdict;
-    if (verdict != Verdict::not_run) claim.cells = {{cells.front(), verdict, 0.0125, 0.02}};
+    if (verdict != Verdict::not_run) claim.cells = {{.cell = cells.front(), .verdict = verdict, .p_value = 0.0125, .welch_p_value = 0.02, .versus = {}}};
     result.claims.push_back(claim);
   }
   result.pictures = {{"made-up", "knot", "0", "", "rendering", {1, 2, 3}},

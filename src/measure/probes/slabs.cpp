@@ -53,7 +53,7 @@ Probe slabs_probe() {
        {"surface_rounding", "", "relative difference of surface_ratio to one computed in extended precision"},
        {"idle_planes", "planes", "slabs, the root's aside, that cut nothing from their region"},
        {"shared_sides", "sides", "of the twelve sides of two children, how many lie in their parent's: the least"}},
-      measure};
+      measure_slabs};
 }
 
 }  // namespace boxwood
