@@ -52,7 +52,9 @@ StudyResult made_up() {
     claim.measured = "measured " + claim.spec.id;
     claim.spec.each = {"k", "rays"};
     claim.verdict = verdict;
-    if (verdict != Verdict::not_run) claim.cells = {{.cell = cells.front(), .verdict = verdict, .p_value = 0.0125, .welch_p_value = 0.02, .versus = {}}};
+    if (verdict != Verdict::not_run)
+      claim.cells = {
+          {.cell = cells.front(), .verdict = verdict, .p_value = 0.0125, .welch_p_value = 0.02, .versus = {}}};
     result.claims.push_back(claim);
   }
   result.pictures = {{"made-up", "knot", "0", "", "rendering", {1, 2, 3}},
