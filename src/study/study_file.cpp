@@ -244,7 +244,9 @@ TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   table.figure = read_figure(reader, vocabulary);
   table.rows = read_factors(reader, "rows", vocabulary);
   table.columns = read_factors(reader, "columns", vocabulary);
-  check_views(value, table.figure, {table.rows, table.columns});
+  table.spread = read_factors(reader, "spread", vocabulary);
+  if (!table.spread.empty() && !table.columns.empty()) value.fail("has either columns or a spread, not both");
+  check_views(value, table.figure, {table.rows, table.columns, table.spread});
   reader.done();
   return table;
 }

@@ -1,6 +1,9 @@
 // Tables that the reader can sort.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "options/options.h"
 #include "report/cell_grid.h"
 #include "report/html/markup.h"
@@ -18,16 +21,20 @@ std::string where_text(const Where& where) {
   return escaped(out);
 }
 
-/// Ratios are coloured where their whole interval is on one side of 1.
-const char* side(const Cell& cell, bool ratio) {
-  if (!ratio) return "";
-  return cell.estimate.low > 1 ? " up" : cell.estimate.high < 1 ? " down" : "";
+/// Ratios are coloured where their whole interval is on one side of 1, the stronger the further they are from it: a
+/// heat map, whose darkest shade is a factor of 4.
+std::string shade(const Cell& cell, bool ratio) {
+  constexpr double darkest = 4;
+  const Estimate& e = cell.estimate;
+  if (!ratio || cell.exact || (e.low <= 1 && e.high >= 1)) return "\"";
+  const double strength = std::min(1.0, std::abs(std::log(e.median)) / std::log(darkest));
+  return fmt::format(" {}\" style=\"--heat:{:.0f}%\"", e.low > 1 ? "up" : "down", 100 * strength);
 }
 
 std::string cell_html(const Cell* cell, bool ratio) {
   if (!cell) return "<td class=\"n\">–</td>";
-  return fmt::format("<td class=\"n{}\" data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
-                     side(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
+  return fmt::format("<td class=\"n{} data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
+                     shade(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
                      escaped(cell_text(*cell)));
 }
 
