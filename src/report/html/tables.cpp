@@ -38,6 +38,24 @@ std::string cell_html(const Cell* cell, bool ratio) {
                      escaped(cell_text(*cell)));
 }
 
+/// What the original printed, folded away where it is long.
+std::string published_html(const TableSpec& spec) {
+  if (spec.published.empty()) return "";
+  constexpr std::size_t short_enough = 8;
+  std::string out =
+      fmt::format("<details{}><summary>As published</summary><div class=\"wide\"><table class=\"sortable\">",
+                  spec.published.size() <= short_enough ? " open" : "");
+  for (std::size_t i = 0; i < spec.published.size(); ++i) {
+    out += i == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t k = 0; k < spec.published[i].size(); ++k) {
+      const char* tag = i == 0 || k == 0 ? "th" : "td";
+      out += fmt::format("<{0}{1}>{2}</{0}>", tag, k == 0 ? "" : " class=\"n\"", escaped(spec.published[i][k]));
+    }
+    out += i == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+  }
+  return out + "</tbody></table></div></details>";
+}
+
 std::string table_html(const TableResult& result, const std::string& prefix) {
   const TableSpec& spec = result.spec;
   const bool ratio = is_ratio(spec.figure);
@@ -58,7 +76,7 @@ std::string table_html(const TableResult& result, const std::string& prefix) {
     for (const Levels& head : grid.columns()) out += cell_html(grid.find(row, head), ratio);
     out += "</tr>\n";
   }
-  return out + "</tbody></table></div></figure>\n";
+  return out + "</tbody></table></div>" + published_html(spec) + "</figure>\n";
 }
 
 }  // namespace
