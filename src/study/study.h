@@ -86,6 +86,9 @@ struct TableSpec {
   std::string id, title;
   FigureSpec figure;
   std::vector<std::string> rows, columns;  ///< factors
+  /// Not empty: instead of columns, how the cells that these factors tell apart spread: lowest, mean, highest, number.
+  std::vector<std::string> spread;
+  std::vector<std::vector<std::string>> published;  ///< as the original printed it: heads, then rows; may be empty
 };
 
 struct PlotSpec {

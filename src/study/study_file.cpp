@@ -13,6 +13,7 @@
 #include "measure/probe.h"
 #include "options/suggest.h"
 #include "study/expression.h"
+#include "study/published.h"
 #include "study/recipe_matrix.h"
 #include "study/toml.h"
 
@@ -244,7 +245,10 @@ TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   table.figure = read_figure(reader, vocabulary);
   table.rows = read_factors(reader, "rows", vocabulary);
   table.columns = read_factors(reader, "columns", vocabulary);
-  check_views(value, table.figure, {table.rows, table.columns});
+  table.spread = read_factors(reader, "spread", vocabulary);
+  if (!table.spread.empty() && !table.columns.empty()) value.fail("has either columns or a spread, not both");
+  check_views(value, table.figure, {table.rows, table.columns, table.spread});
+  if (const TomlValue* published = reader.find("published")) table.published = read_published(*published);
   reader.done();
   return table;
 }
