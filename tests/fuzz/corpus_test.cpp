@@ -50,7 +50,7 @@ TEST_P(FuzzCorpus, CutAnywhereIsReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpus, ::testing::ValuesIn(targets().begin(), targets().end()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& each) { return each.param.name; });
 
 }  // namespace
 }  // namespace boxwood::fuzz

@@ -1,4 +1,8 @@
 // The readers of our own for scenes and what lies beside them.
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
 #include "boxwood/scene.h"
 #include "boxwood/structure.h"
 #include "fuzz/support.h"
@@ -36,7 +40,10 @@ void read_obj_file(Bytes bytes) { load_as("input.obj", bytes); }
 void read_stl_file(Bytes bytes) { load_as("input.stl", bytes); }
 void read_pbrt_file(Bytes bytes) { load_as("input.pbrt", bytes); }
 void read_mtl_file(Bytes bytes) {
-  accept_or_refuse([&] { read_mtl(write_file("input.mtl", bytes)); });
+  accept_or_refuse([&] {
+    Scene scene;
+    read_mtl(write_file("input.mtl", bytes), scene);
+  });
 }
 void read_camera_sidecar(Bytes bytes) {
   accept_or_refuse([&] {
@@ -47,16 +54,21 @@ void read_camera_sidecar(Bytes bytes) {
 }
 
 void read_cache_entry(Bytes bytes) {
-  // The head of an entry names a file, its size and its time; it is made by keeping an empty scene.
+  // The head of an entry names a file, its size and its time: all that the entries of two scenes share, whose first
+  // field differs.
   static const std::filesystem::path source = write_file("cached.ply", {});
   static const std::string head = [] {
-    write_cached(Scene{}, std::span(&source, 1));
-    std::ifstream in(cache_entry(source), std::ios::binary);
-    const std::string entry{std::istreambuf_iterator<char>(in), {}};
-    // An empty scene is 7 lengths and 2 counts of 8 bytes; the checksum follows.
-    return entry.substr(0, entry.size() - 10 * 8);
+    std::string entries[2];
+    for (const bool named : {false, true}) {
+      Scene scene;
+      if (named) scene.name = "x";
+      write_cached(scene, std::span(&source, 1));
+      std::ifstream in(cache_entry(source), std::ios::binary);
+      entries[named] = {std::istreambuf_iterator<char>(in), {}};
+    }
+    return std::string(entries[0].begin(), std::ranges::mismatch(entries[0], entries[1]).in1);
   }();
-  std::string entry = head + text_of(bytes);
+  const std::string entry = head + text_of(bytes);
   std::ofstream(cache_entry(source), std::ios::binary).write(entry.data(), static_cast<std::streamsize>(entry.size()));
   if (const std::optional<Scene> scene = read_cached(source)) use_scene(*scene);
 }
