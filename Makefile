@@ -34,10 +34,10 @@ test-sanitized: deps ## The whole test suite under ASan+UBSan
 	@cmake --build build/asan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
-test-threads: deps ## The parallel builders under the thread sanitizer
+test-threads: deps ## The parallel builders, and queries from many threads, under the thread sanitizer
 	@$(CONFIGURE) -B build/tsan $(SANITIZED) -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF >/dev/null
-	@cmake --build build/tsan --target test_build test_fastbuild
-	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R AnyNumberOfThreads -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
+	@cmake --build build/tsan --target test_build test_fastbuild test_limits
+	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R 'AnyNumberOfThreads|ConcurrentQueries' -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
 bench: build ## Build and trace speed as ratios to Embree 3, in one run
 	@$(RELEASE)/boxwood bench --peer embree

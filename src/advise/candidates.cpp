@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "boxwood/error.h"
 #include "cost/registry.h"
@@ -82,6 +84,21 @@ std::vector<std::string> special_heads() {
   return out;
 }
 
+/// The first `leading` as they are, then the others in steps of the golden ratio: whatever part of them there is time
+/// for has some of every builder and layout.
+std::vector<Recipe> spread(std::vector<Recipe> recipes, std::size_t leading) {
+  constexpr double golden_ratio = 0.6180339887498949;
+  std::vector<std::pair<double, std::size_t>> places;
+  for (std::size_t i = leading; i < recipes.size(); ++i) {
+    const double turns = static_cast<double>(i) * golden_ratio;
+    places.emplace_back(turns - std::floor(turns), i);
+  }
+  std::ranges::sort(places);
+  std::vector<Recipe> out(recipes.begin(), recipes.begin() + static_cast<std::ptrdiff_t>(leading));
+  for (const auto& [place, i] : places) out.push_back(std::move(recipes[i]));
+  return out;
+}
+
 class Collector {
  public:
   /// Stages that do not fit each other are no candidate.
@@ -92,6 +109,7 @@ class Collector {
     } catch (const UsageError&) {
     }
   }
+  std::size_t size() const { return recipes_.size(); }
   std::vector<Recipe> take() { return std::move(recipes_); }
 
  private:
@@ -104,6 +122,10 @@ class Collector {
 std::vector<Recipe> candidate_recipes() {
   Collector all;
   for (const Preset& preset : presets()) all.add(preset.text);
+  for (const std::string_view tail : chains) {
+    for (const std::string_view builder : usual_builders) all.add(fmt::format("{} > {}", builder, tail));
+  }
+  const std::size_t leading = all.size();
   for (const std::string& head : special_heads()) {
     for (const std::string_view tail : usual_tails) all.add(fmt::format("{} > {}", head, tail));
   }
@@ -112,7 +134,7 @@ std::vector<Recipe> candidate_recipes() {
     if (stage.kind != StageKind::builder) continue;
     for (const std::string& tail : ends) all.add(fmt::format("{} > {}", stage.name, tail));
   }
-  return all.take();
+  return spread(all.take(), leading);
 }
 
 }  // namespace boxwood

@@ -130,13 +130,28 @@ std::string print(const StageCall& call) {
   return arguments.empty() ? call.stage->name : fmt::format("{}({})", call.stage->name, fmt::join(arguments, ", "));
 }
 
+/// Line breaks and tabs are blanks. Other control characters would turn up in messages and reports.
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto c = static_cast<unsigned char>(line[i]);
+    if (c >= 0x20 && c != 0x7f) continue;
+    if (c < '\t' || c > '\r') {
+      throw UsageError(fmt::format("a recipe has no control characters, but byte {} is {:#04x}; remove it", i, c));
+    }
+    line[i] = ' ';
+  }
+  return line;
+}
+
 }  // namespace
 
 Recipe::Recipe(std::vector<StageCall> stages)
     : stages_(std::make_shared<const std::vector<StageCall>>(std::move(stages))) {}
 
-Recipe Recipe::parse(std::string_view text) {
-  text = trim(text);
+Recipe Recipe::parse(std::string_view written) {
+  const std::string line = on_one_line(written);
+  const std::string_view text = trim(line);
   for (const Preset& preset : presets()) {
     if (text == preset.name) return parse(preset.text);
   }

@@ -16,6 +16,7 @@
 #include "structure/object_use.h"
 #include "structure/pipeline.h"
 #include "structure/same_length.h"
+#include "structure/size_limits.h"
 #include "tree/statistics.h"
 
 namespace boxwood {
@@ -107,6 +108,7 @@ bool needs_use(const Recipe& recipe) {
 }
 
 Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& options) {
+  for (const Mesh& mesh : scene.meshes) check_named(mesh.triangles.size(), scene.instances.size());
   BuildReport report;
   std::shared_ptr<const Layout> layout;
   // More threads than the machine has are for tests of determinism; TBB has to be told to allow them.

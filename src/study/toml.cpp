@@ -70,7 +70,7 @@ std::vector<std::string> TomlValue::words() const {
 
 const TomlValue* TomlReader::find(std::string_view key) {
   known_.emplace_back(key);
-  const auto found = std::ranges::find(table_, key, &std::pair<std::string, TomlValue>::first);
+  const auto found = std::ranges::find(table_, key, &TomlEntry::first);
   return found == table_.end() ? nullptr : &found->second;
 }
 

@@ -10,12 +10,14 @@
 
 namespace boxwood {
 
+struct TomlEntry;
+
 /// A value of a TOML file that knows where it stands, so that whoever finds it wrong can say so. Tables keep the order
 /// of the file.
 class TomlValue {
  public:
   using List = std::vector<TomlValue>;
-  using Table = std::vector<std::pair<std::string, TomlValue>>;
+  using Table = std::vector<TomlEntry>;
   std::variant<bool, std::int64_t, double, std::string, List, Table> data;
   std::string path;        ///< as in "claim.each"
   std::uint32_t line = 0;  ///< 1-based; 0 for the whole file
@@ -38,6 +40,11 @@ class TomlValue {
   std::string word() const;
   /// A list of words, or one word.
   std::vector<std::string> words() const;
+};
+
+struct TomlEntry {
+  std::string first;
+  TomlValue second;
 };
 
 /// A file's table, and the name that its values point to.

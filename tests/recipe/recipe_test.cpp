@@ -145,6 +145,15 @@ TEST(Suggest, NamesTheNearestByEditDistance) {
   EXPECT_NE(suggest("sweeep", names).find("'sweep'"), std::string::npos);
 }
 
+TEST(Recipe, LineBreaksAreBlanksAndOtherControlCharactersAreRefused) {
+  EXPECT_EQ(Recipe::parse("median\n>\tbinary\r\n"), Recipe::parse("median > binary"));
+  for (const char* text : {"l\nevau", "median > \x1b[31mbinary", "med\x7fian > binary"}) {
+    const std::string message = usage_error(text);
+    EXPECT_FALSE(message.empty());
+    for (const char c : message) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) << message;
+  }
+}
+
 TEST(Recipe, PresetsAreValidRecipes) {
   for (const Preset& preset : presets()) EXPECT_NO_THROW(Recipe::parse(preset.name)) << preset.name;
   EXPECT_FALSE(first_of(StageKind::builder).empty());
