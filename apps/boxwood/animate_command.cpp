@@ -21,8 +21,8 @@ namespace boxwood::cli {
 namespace {
 
 struct AnimateOptions {
-  CommonOptions common{.threads = 1};
-  ViewOptions view{.width = 256, .height = 256};
+  CommonOptions common;
+  ViewOptions view;
   std::vector<std::string> scenes;
   std::string recipe = "default";
   std::string motion;
@@ -143,6 +143,8 @@ int run_animate(const AnimateOptions& options) {
 
 void add_animate(CommandSet& commands) {
   const auto options = std::make_shared<AnimateOptions>();
+  options->common.threads = 1;
+  options->view.width = options->view.height = 256;
   Command command = commands.add("animate", "Follow a scene that moves: refit, rebuild parts, or rebuild all",
                                  [options] { return run_animate(*options); });
   command.arguments("SCENE", options->scenes, "A scene to be deformed, or one file for each frame");

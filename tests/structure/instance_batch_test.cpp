@@ -74,7 +74,7 @@ TEST_P(InstanceBatch, InvalidRaysAndEmptyScenes_HitNothing) {
   test::expect_brute_force_answers(build(scene, GetParam()), test::Expected(scene, rays), "nothing there");
 }
 
-std::string name_of(const testing::TestParamInfo<const char*>& parameters) {
+std::string letters_of(const testing::TestParamInfo<const char*>& parameters) {
   std::string name;
   for (const char c : std::string(parameters.param)) {
     if (std::isalnum(static_cast<unsigned char>(c))) name += c;
@@ -85,7 +85,7 @@ std::string name_of(const testing::TestParamInfo<const char*>& parameters) {
 INSTANTIATE_TEST_SUITE_P(Of, InstanceBatch,
                          testing::Values("default", "fast", "best", "compact", "binned > wide(4)", "sweep > wide(16)",
                                          "binned > wide(5)", "binned > wide(8) > trace(order=axis)"),
-                         name_of);
+                         letters_of);
 
 }  // namespace
 }  // namespace boxwood
