@@ -32,7 +32,7 @@ struct StudyOptions {
 };
 
 fs::path prepare_folder(const StudyOptions& options, const Study& study) {
-  const fs::path folder = options.out.empty() ? fs::path("study-" + study.name) : fs::path(options.out);
+  fs::path folder = options.out.empty() ? fs::path("study-" + study.name) : fs::path(options.out);
   if (fs::exists(folder / store_name) && !options.resume) {
     throw UsageError(
         fmt::format("{} has measurements already; add --resume to go on with them, or name another folder "

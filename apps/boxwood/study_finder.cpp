@@ -37,7 +37,7 @@ fs::path find_study(const std::string& name_or_file) {
   std::error_code ignored;
   if (fs::is_regular_file(name_or_file, ignored)) return fs::absolute(name_or_file);
   for (const fs::path& folder : study_folders()) {
-    const fs::path file = folder / (name_or_file + ".toml");
+    fs::path file = folder / (name_or_file + ".toml");
     if (fs::is_regular_file(file, ignored)) return file;
   }
   throw UsageError(

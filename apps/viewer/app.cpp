@@ -270,6 +270,7 @@ void App::draw_pane(const Pane& pane, PictureTexture& texture, const char* capti
   if (texture.width() == 0) return;
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const ImVec2 a(pane.x, pane.y), b(pane.x + pane.width, pane.y + pane.height);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL has numbers where ImGui has pointers
   list->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id())), a, b);
   if (*caption == '\0') return;
   const ImVec2 size = ImGui::CalcTextSize(caption);

@@ -27,7 +27,7 @@ struct NearestPoint {
 /// Names a triangle of a scene.
 struct TriangleName {
   std::uint32_t instance = 0, primitive = 0;
-  friend auto operator<=>(const TriangleName&, const TriangleName&) = default;
+  friend auto operator<=>(const TriangleName&, const TriangleName&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Distances to a scene's triangles, in world space. Immutable; copies share it; queries are const and thread safe.

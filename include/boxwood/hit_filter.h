@@ -16,7 +16,7 @@ class HitFilter {
   template <class Accept>
   requires(std::is_object_v<std::remove_reference_t<Accept>> && !std::same_as<std::remove_cvref_t<Accept>, HitFilter> &&
            (std::predicate<Accept&, const Hit&> || std::predicate<Accept&, std::size_t, const Hit&>))
-      HitFilter(Accept&& accept)
+      HitFilter(Accept&& accept)  // NOLINT(bugprone-forwarding-reference-overload): never a HitFilter, see above
       : object_(const_cast<void*>(static_cast<const void*>(std::addressof(accept)))),
         call_([](void* object, std::size_t ray, const Hit& hit) -> bool {
           auto& callable = *static_cast<std::remove_reference_t<Accept>*>(object);

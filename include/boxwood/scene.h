@@ -38,17 +38,28 @@ struct Instance {
 /// How a surface sends out and scatters light. Diffuse, specular, reflection and transmission are shares of the light
 /// that arrives, per colour; where they exceed 1 together, renderers scale them down.
 struct Material {
+  static constexpr std::uint32_t no_texture = 0xffffffff;
+
   std::string name;
-  Vec3 diffuse{0.7f, 0.7f, 0.7f};  ///< scattered evenly (Lambert)
-  Vec3 emission{0, 0, 0};          ///< radiance sent out
-  Vec3 specular{0, 0, 0};          ///< scattered around the mirror direction (Phong)
-  float shininess = 0;             ///< exponent of that lobe
-  Vec3 reflection{0, 0, 0};        ///< reflected as by a mirror
-  Vec3 transmission{0, 0, 0};      ///< let through, bent by refraction_index; the sides are the triangles' own
+  Vec3 diffuse{0.7f, 0.7f, 0.7f};      ///< scattered evenly (Lambert)
+  std::uint32_t texture = no_texture;  ///< index into Scene::textures: an image that `diffuse` is multiplied by
+  Vec3 emission{0, 0, 0};              ///< radiance sent out
+  Vec3 specular{0, 0, 0};              ///< scattered around the mirror direction (Phong)
+  float shininess = 0;                 ///< exponent of that lobe
+  Vec3 reflection{0, 0, 0};            ///< reflected as by a mirror
+  Vec3 transmission{0, 0, 0};          ///< let through, bent by refraction_index; the sides are the triangles' own
   /// Of the inside, the back of the triangles, relative to the outside. Unless it is 1, Fresnel's equations divide what
   /// a transmitting surface lets through and mirrors.
   float refraction_index = 1;
   bool emits_behind = true;  ///< whether the back of the triangles sends out light as well
+};
+
+/// A picture that is repeated over surfaces. Texture coordinate (0, 0) is the lower left corner of the lower left
+/// pixel.
+struct Texture {
+  std::string file;                     ///< that it is read from; empty: it was in the scene's own file
+  std::uint32_t width = 0, height = 0;  ///< pixels; 0: not read, because the file is missing or no image
+  std::vector<std::uint8_t> pixels;     ///< red, green, blue in sRGB, rows from the top; 3 width height bytes
 };
 
 /// Pinhole camera. `direction` need not be of unit length; `fov` is the angle in degrees across the shorter image side.
@@ -94,6 +105,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   std::vector<Camera> cameras;  ///< the first is the default
   std::vector<Light> lights;    ///< with the emissive materials, all that gives light
   ImportNotes notes;

@@ -17,7 +17,7 @@ template <class Nodes, class Leaves>
 struct Level {
   Nodes nodes;
   Leaves leaves;
-  Extent extent;
+  Reach extent;
   bool cull = true;
 };
 

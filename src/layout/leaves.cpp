@@ -59,13 +59,13 @@ InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const 
   return leaves;
 }
 
-Extent extent_of(const TriangleLeaves&, const Box& bounds, const Contents&) {
+Reach extent_of(const TriangleLeaves&, const Box& bounds, const Contents&) {
   if (bounds.empty()) return {};
   const Vec3 largest = max(max(bounds.lower, bounds.upper), max(-bounds.lower, -bounds.upper));
   return {std::max({largest.x, largest.y, largest.z}), 1};
 }
 
-Extent extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents) {
+Reach extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents) {
   InstanceError error;
   for (const InstanceLeaf& leaf : leaves.instances) {
     // What the world's box is to the instance bounds whatever of it lies there.

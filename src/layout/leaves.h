@@ -18,7 +18,7 @@ namespace boxwood {
 inline constexpr std::uint32_t own_instances = no_primitive;
 
 /// What prepare() must know of everything below a root.
-struct Extent {
+struct Reach {
   float reach = 0;
   float gain = 1;
 };
@@ -56,7 +56,7 @@ void move_triangles(TriangleLeaves& leaves, const Mesh& mesh);
 InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const Contents& contents);
 
 /// The error bound that rays need below a root with box `bounds`. For a level above, what its leaves round is added.
-Extent extent_of(const TriangleLeaves& leaves, const Box& bounds, const Contents& contents);
-Extent extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents);
+Reach extent_of(const TriangleLeaves& leaves, const Box& bounds, const Contents& contents);
+Reach extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents);
 
 }  // namespace boxwood

@@ -31,7 +31,7 @@ struct SavedFacts {
   std::uint32_t out_of_cache = 0;  ///< WideView::out_of_cache
   std::uint32_t stack = 0;         ///< WideView::stack
   std::uint32_t root_reference = 0;
-  float reach = 0, gain = 1;  ///< Extent
+  float reach = 0, gain = 1;  ///< Reach
   Box root_box{{0, 0, 0}, {0, 0, 0}};
   Link root;
   std::uint32_t primitives = 0;  ///< one more than the largest number of a triangle, or an instance, in it

@@ -112,10 +112,12 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
   // collapsed.
   constexpr std::uintptr_t small_page = 4096;
   constexpr int collapse = 25;  // MADV_COLLAPSE, which older headers lack; older systems refuse it.
-  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(begin) / small_page * small_page;
-  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / small_page * small_page;
-  madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
-  if (first % huge_page == 0 && end - first >= huge_page) madvise(reinterpret_cast<void*>(first), huge_page, collapse);
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t before = address % small_page;
+  const std::uintptr_t size = (before + bytes) / small_page * small_page;
+  std::byte* const first = static_cast<std::byte*>(begin) - before;
+  madvise(first, size, MADV_HUGEPAGE);
+  if ((address - before) % huge_page == 0 && size >= huge_page) madvise(first, huge_page, collapse);
 }
 
 #else

@@ -28,16 +28,37 @@ ExpectedUse expect_use(const Structure& structure, std::span<const RaySet> rays,
   return use;
 }
 
-ExpectedUse expect_view(const Scene& scene, const RaySetSettings& settings) {
-  const std::vector<std::string> kinds = {"primary", "shadow", "ao", "diffuse"};
-  const unsigned threads = static_cast<unsigned>(tbb::this_task_arena::max_concurrency());
-  const Structure structure = build(scene, "default", {.threads = threads});
+namespace {
+
+/// make(settings) makes the sets.
+template <class Make>
+ExpectedUse expect_sets(const Structure& structure, const RaySetSettings& settings, const Make& make) {
   RaySetSettings all = settings;
   all.block = 1;
-  ExpectedUse use = expect_use(structure, make_ray_sets(scene, structure, settings, kinds),
-                               make_ray_sets(scene, structure, all, kinds));
+  ExpectedUse use = expect_use(structure, make(settings), make(all));
   use.views = {{settings.camera, settings.width, settings.height}};
   return use;
+}
+
+Structure structure_to_look_with(const Scene& scene) {
+  return build(scene, "default", {.threads = static_cast<unsigned>(tbb::this_task_arena::max_concurrency())});
+}
+
+const std::vector<std::string> usual_kinds = {"primary", "shadow", "ao", "diffuse"};
+
+}  // namespace
+
+ExpectedUse expect_view(const Scene& scene, const RaySetSettings& settings) {
+  const Structure structure = structure_to_look_with(scene);
+  return expect_sets(structure, settings,
+                     [&](const RaySetSettings& some) { return make_ray_sets(scene, structure, some, usual_kinds); });
+}
+
+ExpectedUse expect_paths(const Scene& scene, const RaySetSettings& settings, const WholePaths& paths) {
+  const Structure structure = structure_to_look_with(scene);
+  return expect_sets(structure, settings, [&](const RaySetSettings& some) {
+    return make_path_sets(scene, structure, some, paths, usual_kinds);
+  });
 }
 
 }  // namespace boxwood

@@ -13,7 +13,7 @@ void shade_eyelight(const ShadingContext& context, const CameraBatch& batch, Tra
     radiance[i] = {};
     if (!hits[i].valid()) continue;
     const SurfacePoint point = context.surfaces.at(hits[i]);
-    radiance[i] = point.material->diffuse * std::fabs(dot(point.normal, batch.rays[i].direction));
+    radiance[i] = point.diffuse * std::fabs(dot(point.normal, batch.rays[i].direction));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "boxwood/ray_set.h"
 #include "render/surface.h"
+#include "render/whole_paths.h"
 
 namespace boxwood {
 
@@ -14,6 +15,7 @@ struct RaySetContext {
   const RaySetSettings& settings;
   const Surfaces& surfaces;
   Box bounds;
+  const WholePaths* whole = nullptr;  ///< null: shadow and ao rays from the camera's hits only, one each
 };
 
 /// Closest hits of `rays`, in parallel.
@@ -22,8 +24,11 @@ std::vector<Hit> trace(const Structure& structure, std::span<const Ray> rays);
 // Sets that follow the camera's rays, in tile order; rays that hit nothing have no successor.
 
 std::vector<Ray> primary_rays(const RaySetContext& context);
-std::vector<Ray> shadow_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits);
-std::vector<Ray> ao_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits);
+/// `depth`: bounces before the hits.
+std::vector<Ray> shadow_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits,
+                             std::uint32_t depth);
+std::vector<Ray> ao_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits,
+                         std::uint32_t depth);
 /// `bounce` counts from 1.
 std::vector<Ray> diffuse_rays(const RaySetContext& context, std::span<const Ray> rays, std::span<const Hit> hits,
                               std::uint32_t bounce);

@@ -35,7 +35,7 @@ Scattering::Scattering(const SurfacePoint& point, const Vec3& incoming)
   shininess_ = std::max(material.shininess, 0.0f);
   const float index = material.refraction_index > 0 ? material.refraction_index : 1;
   index_ = from_inside ? index : 1 / index;
-  share_ = {material.diffuse, material.specular, material.reflection, material.transmission};
+  share_ = {point.diffuse, material.specular, material.reflection, material.transmission};
   if (index != 1 && material.transmission != Vec3{}) {
     const float reflected = fresnel_reflectance(std::min(-dot(normal_, incoming), 1.0f), index_);
     share_[2] = share_[2] * reflected;

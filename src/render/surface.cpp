@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/textures.h"
+
 namespace boxwood {
 namespace {
 
@@ -56,7 +58,22 @@ SurfacePoint Surfaces::at(std::uint32_t instance_index, std::uint32_t primitive,
   point.clearance = static_cast<float>(reach * 0x1p-17);
 
   point.material = &material(instance_index, primitive);
+  point.diffuse = diffuse(mesh, triangle, *point.material, u, v);
   return point;
+}
+
+Vec3 Surfaces::diffuse(const Mesh& mesh, const Triangle& triangle, const Material& material, float u, float v) const {
+  if (material.texture >= scene_.textures.size() || mesh.texture_coordinates.empty()) return material.diffuse;
+  const Texture& texture = scene_.textures[material.texture];
+  const std::size_t pixels = std::size_t{texture.width} * texture.height;
+  if (pixels == 0 || texture.pixels.size() != 3 * pixels) return material.diffuse;
+  double at[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto corner = [&](std::size_t vertex) { return double{mesh.texture_coordinates[triangle[vertex]][i]}; };
+    at[i] =
+        corner(0) + (corner(1) - corner(0)) * static_cast<double>(u) + (corner(2) - corner(0)) * static_cast<double>(v);
+  }
+  return material.diffuse * texture_color(texture, at[0], at[1]);
 }
 
 const Material& Surfaces::material(std::uint32_t instance, std::uint32_t primitive) const {

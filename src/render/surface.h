@@ -15,6 +15,7 @@ struct SurfacePoint {
   Vec3 normal;
   float clearance = 0;  ///< a distance off the surface at which rounding can no longer hit it again
   const Material* material = nullptr;
+  Vec3 diffuse;  ///< the material's, times its texture here
 };
 
 /// The largest component of a colour.
@@ -34,6 +35,8 @@ class Surfaces {
   const Material& material(std::uint32_t instance, std::uint32_t primitive) const;
 
  private:
+  Vec3 diffuse(const Mesh& mesh, const Triangle& triangle, const Material& material, float u, float v) const;
+
   const Scene& scene_;
   Material fallback_;  // of triangles without one
 };

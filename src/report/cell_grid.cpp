@@ -1,5 +1,8 @@
 #include "report/cell_grid.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <set>
 
 #include "report/number_text.h"
@@ -35,7 +38,10 @@ const Cell* CellGrid::find(const Levels& row, const Levels& column) const {
 }
 
 std::string cell_text(const Cell& cell) {
-  return cell.exact ? significant(cell.estimate.median) : with_interval(cell.estimate);
+  if (!cell.exact) return with_interval(cell.estimate);
+  const double value = cell.estimate.median;
+  const bool small_count = value == std::floor(value) && std::abs(value) < 1000;
+  return small_count ? fmt::format("{:.0f}", value) : significant(value);
 }
 
 }  // namespace boxwood

@@ -103,6 +103,10 @@ void write_study(const fs::path& folder, const StudyResult& result) {
   for (const TableResult& table : result.tables) {
     write(folder / "tables" / (table.spec.id + ".csv"),
           cells_csv(table.cells, joined(table.spec.rows, table.spec.columns), table.spec.figure));
+    if (table.spec.published.empty()) continue;
+    std::string published;
+    for (const std::vector<std::string>& row : table.spec.published) published += csv_line(row);
+    write(folder / "tables" / (table.spec.id + "-published.csv"), published);
   }
   for (const PlotResult& plot : result.plots) {
     write(folder / "plots" / (plot.spec.id + ".csv"), plot_csv(plot));

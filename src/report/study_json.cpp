@@ -128,7 +128,8 @@ Json to_json(const StudyResult& result) {
                       {"rows", table.spec.rows},
                       {"columns", table.spec.columns},
                       {"figure", figure_json(table.spec.figure)},
-                      {"cells", cells_json(table.cells)}});
+                      {"cells", cells_json(table.cells)},
+                      {"published", table.spec.published}});
   }
   for (const PlotResult& plot : result.plots) plots.push_back(plot_json(plot));
   for (const JudgedClaim& claim : result.claims) claims.push_back(claim_json(claim));

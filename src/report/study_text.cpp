@@ -10,6 +10,18 @@
 namespace boxwood {
 namespace {
 
+std::string published_text(const TableSpec& spec) {
+  constexpr std::size_t short_enough = 16;
+  if (spec.published.empty()) return "";
+  if (spec.published.size() > short_enough) return fmt::format("As published: tables/{}-published.csv\n\n", spec.id);
+  std::vector<Table::Column> columns;
+  for (const std::string& head : spec.published.front()) columns.push_back({head});
+  columns.front().align = Align::left;
+  Table table(columns);
+  for (std::size_t i = 1; i < spec.published.size(); ++i) table.add(spec.published[i]);
+  return fmt::format("As published:\n\n{}\n", table.text());
+}
+
 std::string table_text(const TableResult& result) {
   const TableSpec& spec = result.spec;
   std::vector<Table::Column> columns;
@@ -27,7 +39,7 @@ std::string table_text(const TableResult& result) {
     }
     table.add(std::move(cells));
   }
-  return fmt::format("{}\n\n{}\n", spec.title, table.text());
+  return fmt::format("{}\n\n{}\n{}", spec.title, table.text(), published_text(spec));
 }
 
 std::string claim_text(const JudgedClaim& claim) {

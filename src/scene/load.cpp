@@ -7,6 +7,7 @@
 #include "scene/importers/importer.h"
 #include "scene/mesh_cache.h"
 #include "scene/placement.h"
+#include "scene/texture_file.h"
 
 namespace boxwood {
 namespace {
@@ -42,6 +43,7 @@ Scene import_and_merge(const fs::path& file) {
 
 Scene load_file(const fs::path& file) {
   Scene scene = import_and_merge(file);
+  read_textures(scene);
   const fs::path sidecar = camera_sidecar(file);
   std::error_code ignored;
   if (fs::is_regular_file(sidecar, ignored)) {

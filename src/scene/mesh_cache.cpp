@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise the number when importers or this layout change what a file becomes. The order of its bytes marks endianness.
-constexpr std::uint64_t magic = 0x0002'6568'6361'6378u;
+constexpr std::uint64_t magic = 0x0003'6568'6361'6378u;
 
 /// Order-sensitive checksum of blocks, eight bytes at a time.
 class Checksum {
@@ -145,6 +145,13 @@ void transfer(Stream& stream, S& scene) {
     }
     for (auto* number : {&material.shininess, &material.refraction_index}) stream.value(*number);
     stream.value(material.emits_behind);
+    stream.value(material.texture);
+  });
+  // Of textures that have files these are read each time.
+  stream.list(scene.textures, [&](auto& texture) {
+    stream.array(texture.file);
+    for (auto* pixels : {&texture.width, &texture.height}) stream.value(*pixels);
+    stream.array(texture.pixels);
   });
   stream.list(scene.cameras, [&](auto& camera) {
     stream.array(camera.name);

@@ -189,6 +189,14 @@ std::string find_bad_index(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     if (std::string problem = find_bad_index(scene, mesh); !problem.empty()) return problem;
   }
+  for (const Material& material : scene.materials) {
+    if (material.texture != Material::no_texture && material.texture >= scene.textures.size()) {
+      return "a material refers to a texture that does not exist";
+    }
+  }
+  for (const Texture& texture : scene.textures) {
+    if (texture.pixels.size() != std::uint64_t{3} * texture.width * texture.height) return "a texture lacks pixels";
+  }
   for (const Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size()) return "an instance refers to a mesh that does not exist";
   }

@@ -86,6 +86,7 @@ Scene flatten(const Scene& scene) {
              .meshes = {},
              .instances = {{0, {}}},
              .materials = scene.materials,
+             .textures = scene.textures,
              .cameras = scene.cameras,
              .lights = scene.lights,
              .notes = scene.notes};

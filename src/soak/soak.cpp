@@ -33,6 +33,8 @@ std::string describe(const Ray& ray) {
                      ray.t_far);
 }
 
+// Also tells -0 from 0, which the answers must agree on.
+// NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
 bool same_bits(const Hit& a, const Hit& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 struct Truth {

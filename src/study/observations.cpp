@@ -6,16 +6,21 @@
 
 #include "measure/probe.h"
 #include "study/run_study.h"
+#include "study/view_json.h"
 
 namespace boxwood {
 namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-bool was_measured_with(const RunSpec& run, const Subject& subject) {
+bool was_measured_with(const Study& study, const Subject& subject) {
+  const RunSpec& run = study.run;
   if (subject.threads != run.threads) return false;
   if (subject.rays.empty()) return true;
-  return subject.width == run.width && subject.height == run.height && subject.seed == run.seed &&
+  const auto scene = std::ranges::find(study.scenes, subject.scene, &SceneSpec::name);
+  if (scene == study.scenes.end()) return false;
+  return has_ray_settings(subject.camera, ray_settings_json(run, *scene)) && subject.width == run.width &&
+         subject.height == run.height && subject.seed == run.seed &&
          std::ranges::find(run.rays, subject.rays) != run.rays.end();
 }
 
@@ -52,7 +57,7 @@ Observations::Observations(const Study& study, const Store& store, std::int64_t 
   filter.study = stored_name(study);
   filter.environment = environment;
   std::vector<Measurement> all = store.measurements(filter);
-  std::erase_if(all, [&](const Measurement& m) { return !was_measured_with(study.run, m.subject); });
+  std::erase_if(all, [&](const Measurement& m) { return !was_measured_with(study, m.subject); });
 
   std::map<std::string, SceneFacts> latest;
   for (const Measurement& m : all) {
@@ -137,11 +142,16 @@ std::vector<double> Observations::mean_over_views(const Expression& value, const
 
 std::vector<Series> Observations::series(const Expression& value, bool each_view) const {
   std::vector<Series> out;
+  const auto spec_of = [&](const SceneFacts& scene) -> const SceneSpec& {
+    return *std::ranges::find(study_.scenes, scene.name, &SceneSpec::name);
+  };
   const auto add_series = [&](const SceneFacts& scene, const RecipeSpec& recipe, Factors more,
                               std::vector<double> samples) {
     std::erase_if(samples, [](double x) { return std::isnan(x); });
     if (samples.empty()) return;
-    more["scene"] = scene.name;
+    const Factors& of_scene = spec_of(scene).set;
+    more.insert(of_scene.begin(), of_scene.end());
+    more.emplace("scene", scene.name);
     more["recipe"] = recipe.label;
     more.insert(recipe.factors.begin(), recipe.factors.end());
     out.push_back({std::move(more), std::move(samples)});

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "boxwood/ray_set.h"
@@ -19,6 +18,7 @@
 #include "study/observations.h"
 #include "study/pictures.h"
 #include "study/scene_finder.h"
+#include "study/view_json.h"
 
 namespace boxwood {
 namespace {
@@ -99,6 +99,7 @@ class Run {
   bool is_done(const Subject& subject) const { return done_.contains(subject.key()); }
   bool is_scene_done(const StudyScene& scene, const std::vector<Contestant>& contestants) const;
   RaySetSettings view_settings(const Camera& view) const;
+  std::vector<RaySet> rays_of(const StudyScene& scene, const Camera& view, const Structure& structure) const;
 
   void step(const std::string& what) {
     steps_ += 1;
@@ -112,7 +113,9 @@ class Run {
   }
 
   const ExpectedUse* use() const { return use_ ? &*use_ : nullptr; }
-  void tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants);
+  void tell_use(const StudyScene& scene, const Camera& view, const std::vector<Contestant>& contestants);
+  void build_one(const StudyScene& scene, Contestant& contestant);
+  void rebuild(const StudyScene& scene, const Camera& view, std::vector<Contestant>& contestants);
   void draw(const StudyScene& scene, const std::vector<Contestant>& contestants);
   void build_structures(const StudyScene& scene, std::vector<Contestant>& contestants);
   void measure_rays(const StudyScene& scene, const Camera& view, const RaySet& rays,
@@ -132,6 +135,7 @@ class Run {
   std::vector<Tree> trees_;
   std::string trees_are_of_;
   std::optional<ExpectedUse> use_;
+  std::string ray_settings_;  ///< of the scene that is being measured
 };
 
 Subject Run::subject(const StudyScene& scene, const Contestant& contestant, const Probe& probe,
@@ -153,7 +157,7 @@ Subject Run::subject(const StudyScene& scene, const Camera& view, const std::str
                      const Probe& probe, std::uint32_t repetition) const {
   Subject s = subject(scene, contestant, probe, repetition);
   s.view = view.name;
-  s.camera = camera_json(view);
+  s.camera = view_json(view, ray_settings_);
   s.width = study_.run.width;
   s.height = study_.run.height;
   s.rays = rays;
@@ -167,7 +171,24 @@ RaySetSettings Run::view_settings(const Camera& view) const {
   settings.width = study_.run.width;
   settings.height = study_.run.height;
   settings.seed = study_.run.seed;
+  settings.bounces = study_.run.bounces;
+  settings.ao_radius = study_.run.ao_radius;
   return settings;
+}
+
+/// Of all kinds that are measured, under the names that the study has for them.
+std::vector<RaySet> Run::rays_of(const StudyScene& scene, const Camera& view, const Structure& structure) const {
+  std::vector<std::string> kinds;
+  for (const std::string& rays : study_.run.rays) kinds.push_back(rays.starts_with("diffuse") ? "diffuse" : rays);
+  const std::optional<WholePaths>& paths = study_.run.whole_paths;
+  const RaySetSettings settings = view_settings(view);
+  std::vector<RaySet> sets = paths ? make_path_sets(scene.scene, structure, settings, *paths, kinds)
+                                   : make_ray_sets(scene.scene, structure, settings, kinds);
+  if (study_.run.bounces > 1) return sets;
+  for (RaySet& rays : sets) {
+    if (rays.kind == "diffuse1") rays.kind = "diffuse";
+  }
+  return sets;
 }
 
 bool Run::is_scene_done(const StudyScene& scene, const std::vector<Contestant>& contestants) const {
@@ -227,8 +248,8 @@ void Run::probe_and_store(const Subject& subject, const Probe& probe, const Prob
   store_.add(subject, values, environment_);
 }
 
-/// What the first view traces, for recipes that adapt to it and for the probe that judges trees by it.
-void Run::tell_use(const StudyScene& scene, const std::vector<Contestant>& contestants) {
+/// What a view traces, for recipes that adapt to it and for the probe that judges trees by it.
+void Run::tell_use(const StudyScene& scene, const Camera& view, const std::vector<Contestant>& contestants) {
   constexpr std::uint32_t block = 4;  // as the SAH alternatives study thins its rays
   use_.reset();
   const bool wanted =
@@ -236,9 +257,25 @@ void Run::tell_use(const StudyScene& scene, const std::vector<Contestant>& conte
       std::ranges::any_of(contestants, [](const Contestant& contestant) { return needs_use(contestant.recipe); });
   if (!wanted) return;
   announce("tracing what recipes may know of " + scene.name);
-  RaySetSettings settings = view_settings(scene.views.front());
+  RaySetSettings settings = view_settings(view);
   settings.block = block;
-  use_ = expect_view(scene.scene, settings);
+  const std::optional<WholePaths>& paths = study_.run.whole_paths;
+  use_ = paths ? expect_paths(scene.scene, settings, *paths) : expect_view(scene.scene, settings);
+}
+
+void Run::build_one(const StudyScene& scene, Contestant& contestant) {
+  contestant.structure.reset();  // the old one must not take memory from the new one
+  const double begin = now(Clock::thread_cpu);
+  contestant.structure = build(scene.scene, contestant.recipe, {.threads = study_.run.threads, .use = use()});
+  contestant.build_cpu_ms = 1e3 * (now(Clock::thread_cpu) - begin);
+}
+
+/// Those that adapt to rays, for the rays of another view.
+void Run::rebuild(const StudyScene& scene, const Camera& view, std::vector<Contestant>& contestants) {
+  tell_use(scene, view, contestants);
+  for (Contestant& contestant : contestants) {
+    if (needs_use(contestant.recipe)) build_one(scene, contestant);
+  }
 }
 
 /// Every recipe once per round, in turn; the structures of the last round stay.
@@ -259,10 +296,7 @@ void Run::build_structures(const StudyScene& scene, std::vector<Contestant>& con
       }
       const bool last = round + 1 == study_.run.builds;
       if (missing.empty() && !(last && !contestant.structure)) continue;
-      contestant.structure.reset();  // the old one must not take memory from the new one
-      const double begin = now(Clock::thread_cpu);
-      contestant.structure = build(scene.scene, contestant.recipe, {.threads = study_.run.threads, .use = use()});
-      contestant.build_cpu_ms = 1e3 * (now(Clock::thread_cpu) - begin);
+      build_one(scene, contestant);
       for (const auto& [what, probe] : missing) {
         probe_and_store(what, *probe, input(scene, contestant, nullptr, view));
       }
@@ -312,6 +346,7 @@ void Run::draw(const StudyScene& scene, const std::vector<Contestant>& contestan
 }
 
 void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
+  ray_settings_ = ray_settings_json(study_.run, spec);
   std::vector<Contestant> contestants;
   for (Recipe& recipe : recipes_for(study_, spec)) contestants.push_back({std::move(recipe), {}, 0});
   if (contestants.empty()) return;
@@ -319,16 +354,15 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
     skipped_ += steps_in(study_, spec);
     return;
   }
-  tell_use(scene, contestants);
+  tell_use(scene, scene.views.front(), contestants);
   build_structures(scene, contestants);
   draw(scene, contestants);
   const bool with_rays =
       std::ranges::any_of(probes_, [](const Probe* probe) { return probe->scope == ProbeScope::rays; });
-  for (const Camera& view : scene.views) {
-    if (!with_rays) break;
-    for (RaySet& rays :
-         make_ray_sets(scene.scene, *contestants.front().structure, view_settings(view), study_.run.rays)) {
-      if (rays.kind == "diffuse1") rays.kind = "diffuse";  // as the study calls it
+  for (std::size_t number = 0; with_rays && number < scene.views.size(); ++number) {
+    const Camera& view = scene.views[number];
+    if (number > 0 && spec.rebuild > 0 && number % spec.rebuild == 0) rebuild(scene, view, contestants);
+    for (RaySet& rays : rays_of(scene, view, *contestants.front().structure)) {
       measure_rays(scene, view, rays, contestants);
     }
   }
@@ -338,13 +372,6 @@ void Run::measure(const SceneSpec& spec, const StudyScene& scene) {
 
 std::string stored_name(const Study& study) {
   return study.quick ? study.name + std::string(quick_suffix) : study.name;
-}
-
-std::string camera_json(const Camera& camera) {
-  const auto list = [](const Vec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };
-  return nlohmann::ordered_json{
-      {"eye", list(camera.eye)}, {"direction", list(camera.direction)}, {"up", list(camera.up)}, {"fov", camera.fov}}
-      .dump();
 }
 
 std::int64_t run_study(const Study& study, Store& store, const StudySettings& settings, ProgressSink* progress) {

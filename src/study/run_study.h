@@ -29,7 +29,4 @@ std::int64_t run_study(const Study& study, Store& store, const StudySettings& se
 std::string stored_name(const Study& study);
 inline constexpr std::string_view quick_suffix = " (quick)";
 
-/// The camera as the store keeps it.
-std::string camera_json(const Camera& camera);
-
 }  // namespace boxwood

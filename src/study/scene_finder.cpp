@@ -57,6 +57,21 @@ std::vector<Camera> orbit_views(const Scene& scene, const OrbitSpec& spec) {
   return cameras;
 }
 
+Vec3 place_in(const Box& box, const Vec3& share) { return box.lower + share * box.extent(); }
+
+std::vector<Camera> path_views(const Scene& scene, const PathSpec& spec) {
+  const Box bounds = scene.bounds();
+  std::vector<Camera> keys;
+  for (std::size_t i = 0; i < spec.eyes.size(); ++i) {
+    Camera key;
+    key.eye = place_in(bounds, spec.eyes[i]);
+    key.direction = normalize(place_in(bounds, spec.targets[i]) - key.eye);
+    key.fov = spec.fov;
+    keys.push_back(key);
+  }
+  return spline_path(keys, spec.frames);
+}
+
 std::vector<Camera> named_views(const Scene& scene, const std::vector<std::string>& names) {
   if (names.empty()) return {scene.cameras.front()};
   std::vector<Camera> views;
@@ -70,6 +85,21 @@ std::vector<Camera> named_views(const Scene& scene, const std::vector<std::strin
     views.push_back(*found);
   }
   return views;
+}
+
+std::vector<Camera> views_of(const Scene& scene, const SceneSpec& spec) {
+  if (spec.orbit) return orbit_views(scene, *spec.orbit);
+  if (spec.path) return path_views(scene, *spec.path);
+  return named_views(scene, spec.cameras);
+}
+
+/// Point lights in place of the scene's own.
+void light_up(Scene& scene, const std::vector<Vec3>& places) {
+  if (places.empty()) return;
+  const Box bounds = scene.bounds();
+  scene.lights.clear();
+  for (const Vec3& place : places) scene.lights.push_back({place_in(bounds, place)});
+  for (Material& material : scene.materials) material.emission = {};
 }
 
 /// `count` of them, the first included, evenly apart.
@@ -92,8 +122,8 @@ StudyScene find_scene(const SceneSpec& spec, std::span<const fs::path> folders, 
     out.stand_in = entry != spec.find.front();
     out.scene = load(place);
     out.hash = fingerprint(out.scene);
-    out.views =
-        thinned(spec.orbit ? orbit_views(out.scene, *spec.orbit) : named_views(out.scene, spec.cameras), frames);
+    light_up(out.scene, spec.lights);
+    out.views = thinned(views_of(out.scene, spec), frames);
     return out;
   }
   throw Error(fmt::format("the study's scene '{}' is nowhere: tried {}; name the folder that has it with --scenes",
@@ -101,7 +131,9 @@ StudyScene find_scene(const SceneSpec& spec, std::span<const fs::path> folders, 
 }
 
 std::size_t view_count(const SceneSpec& spec, std::uint32_t frames) {
-  const std::size_t all = spec.orbit ? spec.orbit->frames : std::max<std::size_t>(1, spec.cameras.size());
+  const std::size_t all = spec.orbit  ? spec.orbit->frames
+                          : spec.path ? spec.path->frames
+                                      : std::max<std::size_t>(1, spec.cameras.size());
   return frames == 0 ? all : std::min<std::size_t>(all, frames);
 }
 

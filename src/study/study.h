@@ -6,6 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "boxwood/vec3.h"
+#include "render/whole_paths.h"
+
 namespace boxwood {
 
 // A study as its file says it: what to measure, what to show, what to find out. docs/studies.md describes the file.
@@ -25,12 +28,26 @@ struct OrbitSpec {
   std::optional<double> fov;  ///< degrees
 };
 
+/// Frames along a smooth curve through key frames, which look from `eyes` to `targets`: one of each per key frame, in
+/// shares of the scene's box, so that they fit a stand-in too.
+struct PathSpec {
+  std::uint32_t frames = 20;
+  std::vector<Vec3> eyes, targets;
+  float fov = 70;  ///< degrees
+};
+
 struct SceneSpec {
   std::string name;
   std::vector<std::string> find;     ///< files and generators; the first that is there is used
   std::vector<std::string> cameras;  ///< names; empty and no orbit: the scene's first
   std::optional<OrbitSpec> orbit;
-  Where only;  ///< recipes that are measured on it; empty: all
+  std::optional<PathSpec> path;
+  std::vector<Vec3> lights;  ///< points in shares of the scene's box, in place of its own lights; empty: its own
+  /// Recipes that adapt to rays are built anew for every view whose number is a multiple of this; 0: once, for the
+  /// first.
+  std::uint32_t rebuild = 0;
+  Factors set;  ///< levels that its figures have, above those of the recipe; may name the scene otherwise
+  Where only;   ///< recipes that are measured on it; empty: all
 };
 
 struct RecipeSpec {
@@ -42,8 +59,11 @@ struct RecipeSpec {
 struct RunSpec {
   std::vector<std::string> rays = {"primary"};
   std::uint32_t width = 512, height = 512;
-  std::uint32_t repetitions = 10;  ///< of timings of rays
-  std::uint32_t builds = 3;        ///< of timings of builds
+  std::uint32_t bounces = 1;              ///< 1: rays "diffuse"; more: "diffuse1" … "diffuseN"
+  float ao_radius = 0;                    ///< world units; 0: a tenth of the scene's diagonal
+  std::optional<WholePaths> whole_paths;  ///< none: secondary rays as make_ray_sets() makes them
+  std::uint32_t repetitions = 10;         ///< of timings of rays
+  std::uint32_t builds = 3;               ///< of timings of builds
   std::uint32_t threads = 1;
   std::uint64_t seed = 1;
   std::uint32_t frames = 0;         ///< views per scene at most, evenly picked; 0: all
@@ -66,6 +86,9 @@ struct TableSpec {
   std::string id, title;
   FigureSpec figure;
   std::vector<std::string> rows, columns;  ///< factors
+  /// Not empty: instead of columns, how the cells that these factors tell apart spread: lowest, mean, highest, number.
+  std::vector<std::string> spread;
+  std::vector<std::vector<std::string>> published;  ///< as the original printed it: heads, then rows; may be empty
 };
 
 struct PlotSpec {

@@ -13,6 +13,7 @@
 #include "measure/probe.h"
 #include "options/suggest.h"
 #include "study/expression.h"
+#include "study/published.h"
 #include "study/recipe_matrix.h"
 #include "study/toml.h"
 
@@ -59,6 +60,14 @@ void read_run(const TomlValue& table, RunSpec& run, const std::vector<std::strin
     run.width = size->list()[0].integer(1, most_pixels);
     run.height = size->list()[1].integer(1, most_pixels);
   }
+  run.bounces = reader.integer("bounces", 1, 16, run.bounces);
+  run.ao_radius = static_cast<float>(reader.number("ao_radius", 0, 1e12, static_cast<double>(run.ao_radius)));
+  if (const TomlValue* paths = reader.find("whole_paths")) {
+    TomlReader path(*paths);
+    run.whole_paths.emplace();
+    run.whole_paths->ao_rays = path.integer("ao_rays", 1, 1024, run.whole_paths->ao_rays);
+    path.done();
+  }
   run.repetitions = reader.integer("repetitions", 1, 10000, run.repetitions);
   run.builds = reader.integer("builds", 1, 10000, run.builds);
   run.threads = reader.integer("threads", 1, 1024, run.threads);
@@ -72,6 +81,16 @@ void read_run(const TomlValue& table, RunSpec& run, const std::vector<std::strin
   check_words(reader, "probes", run.probes, probe_names);
   run.centre = one_of(reader, "centre", run.centre, {"median", "mean"});
   reader.done();
+}
+
+/// Names each bounce, where there are several.
+void name_bounces(RunSpec& run) {
+  const auto found = std::ranges::find(run.rays, "diffuse");
+  if (run.bounces == 1 || found == run.rays.end()) return;
+  auto at = run.rays.erase(found);
+  for (std::uint32_t bounce = run.bounces; bounce > 0; --bounce) {
+    at = run.rays.insert(at, fmt::format("diffuse{}", bounce));
+  }
 }
 
 /// What queries may name.
@@ -90,7 +109,14 @@ class Vocabulary {
   }
 
   bool knows_factor(const std::string& factor) const { return factors_.contains(factor); }
-  void add_scene(const std::string& name) { levels_["scene"].insert(name); }
+  void add_scene(const SceneSpec& scene) {
+    levels_["scene"].insert(scene.name);
+    for (const auto& [factor, level] : scene.set) {
+      factors_.insert(factor);
+      levels_[factor].insert(level);
+    }
+  }
+  void add_rays(const RunSpec& run) { levels_["rays"].insert(run.rays.begin(), run.rays.end()); }
 
   void check_factor(const TomlValue& where, const std::string& factor) const {
     if (factors_.contains(factor)) return;
@@ -123,6 +149,31 @@ Where read_where(TomlReader& reader, std::string_view key, const Vocabulary& voc
   return where;
 }
 
+/// A list of [x, y, z].
+std::vector<Vec3> read_points(const TomlValue& list) {
+  std::vector<Vec3> points;
+  for (const TomlValue& point : list.list()) {
+    if (!point.is_list() || point.list().size() != 3) point.fail("takes [x, y, z], in shares of the scene's box");
+    const auto share = [&](std::size_t axis) { return static_cast<float>(point.list()[axis].number(-100, 100)); };
+    points.push_back({share(0), share(1), share(2)});
+  }
+  return points;
+}
+
+PathSpec read_path(const TomlValue& table) {
+  TomlReader reader(table);
+  PathSpec path;
+  path.frames = reader.integer("frames", 1, 100000, path.frames);
+  path.eyes = read_points(reader.need("eyes"));
+  path.targets = read_points(reader.need("targets"));
+  path.fov = static_cast<float>(reader.number("fov", 1, 179, static_cast<double>(path.fov)));
+  reader.done();
+  if (path.eyes.empty() || path.eyes.size() != path.targets.size()) {
+    table.fail("needs as many targets as eyes, at least one of each");
+  }
+  return path;
+}
+
 SceneSpec read_scene(const TomlValue& table, const Vocabulary& vocabulary) {
   TomlReader reader(table);
   SceneSpec scene;
@@ -139,6 +190,15 @@ SceneSpec read_scene(const TomlValue& table, const Vocabulary& vocabulary) {
     if (const TomlValue* fov = path.find("fov")) scene.orbit->fov = fov->number(1, 179);
     path.done();
     if (!scene.cameras.empty()) orbit->fail("stands in place of 'cameras'; leave one of them out");
+  }
+  if (const TomlValue* path = reader.find("path")) {
+    scene.path = read_path(*path);
+    if (scene.orbit || !scene.cameras.empty()) path->fail("stands in place of 'cameras' and 'orbit'; leave those out");
+  }
+  if (const TomlValue* lights = reader.find("lights")) scene.lights = read_points(*lights);
+  scene.rebuild = reader.integer("rebuild", 0, 100000, 0);
+  if (const TomlValue* set = reader.find("set")) {
+    for (const auto& [factor, level] : set->table()) scene.set[factor] = level.word();
   }
   scene.only = read_where(reader, "only", vocabulary);
   reader.done();
@@ -185,7 +245,10 @@ TableSpec read_table(const TomlValue& value, const Vocabulary& vocabulary) {
   table.figure = read_figure(reader, vocabulary);
   table.rows = read_factors(reader, "rows", vocabulary);
   table.columns = read_factors(reader, "columns", vocabulary);
-  check_views(value, table.figure, {table.rows, table.columns});
+  table.spread = read_factors(reader, "spread", vocabulary);
+  if (!table.spread.empty() && !table.columns.empty()) value.fail("has either columns or a spread, not both");
+  check_views(value, table.figure, {table.rows, table.columns, table.spread});
+  if (const TomlValue* published = reader.find("published")) table.published = read_published(*published);
   reader.done();
   return table;
 }
@@ -346,7 +409,7 @@ Study parse_study(std::string_view text, const std::string& file_name, bool quic
   Vocabulary vocabulary(study.recipes);
   for (const TomlValue* scene : reader.tables("scene")) {
     study.scenes.push_back(read_scene(*scene, vocabulary));
-    vocabulary.add_scene(study.scenes.back().name);
+    vocabulary.add_scene(study.scenes.back());
   }
   if (study.scenes.empty()) file->root.fail("needs at least one [[scene]]");
   if (study.recipes.empty()) file->root.fail("needs at least one [[recipes]]");
@@ -357,6 +420,8 @@ Study parse_study(std::string_view text, const std::string& file_name, bool quic
     RunSpec checked = study.run;
     read_run(*run, quick ? study.run : checked, scene_names);
   }
+  name_bounces(study.run);
+  vocabulary.add_rays(study.run);
   for (const TomlValue* table : reader.tables("table")) study.tables.push_back(read_table(*table, vocabulary));
   for (const TomlValue* plot : reader.tables("plot")) study.plots.push_back(read_plot(*plot, vocabulary));
   for (const TomlValue* claim : reader.tables("claim")) study.claims.push_back(read_claim(*claim, vocabulary));

@@ -4,6 +4,7 @@
 
 #include "measure/significance.h"
 #include "study/run_study.h"
+#include "study/spread.h"
 #include "study/study_file.h"
 
 namespace boxwood {
@@ -48,6 +49,15 @@ void mark_front(PlotResult& plot) {
     }
     plot.on_front[i] = !beaten;
   }
+}
+
+TableResult table_result(const Study& study, const Observations& observations, const TableSpec& spec) {
+  if (spec.spread.empty()) {
+    return {spec, cells(study, observations, spec.figure, joined(spec.rows, spec.columns))};
+  }
+  TableResult table{spec, spread_cells(study, observations, spec.figure, spec.rows, spec.spread)};
+  table.spec.columns = {spread_factor};
+  return table;
 }
 
 PlotResult plot_result(const Study& study, const Observations& observations, const PlotSpec& spec) {
@@ -101,7 +111,7 @@ StudyResult evaluate(const Study& study, const Store& store, std::int64_t enviro
   result.outliers = count_outliers(measurements);
   result.pictures = store.pictures(stored_name(study));
   for (const TableSpec& spec : study.tables) {
-    result.tables.push_back({spec, cells(study, observations, spec.figure, joined(spec.rows, spec.columns))});
+    result.tables.push_back(table_result(study, observations, spec));
   }
   for (const PlotSpec& spec : study.plots) {
     result.plots.push_back(plot_result(study, observations, spec));

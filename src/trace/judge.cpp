@@ -108,8 +108,8 @@ Judge::Judge(const Scene& scene) {
   }
 }
 
-Verdict Judge::closest_hit(const Ray& ray, const Hit& claimed) const {
-  if (!is_valid(ray)) return claimed.valid() ? Verdict::wrong : Verdict::agrees;
+Judgement Judge::closest_hit(const Ray& ray, const Hit& claimed) const {
+  if (!is_valid(ray)) return claimed.valid() ? Judgement::wrong : Judgement::agrees;
   const double from_origin = std::max({std::fabs(ray.origin.x), std::fabs(ray.origin.y), std::fabs(ray.origin.z)});
   // The claim must lie no farther than what is surely hit, and on a triangle that may be hit there.
   double nearest_surely = std::numeric_limits<double>::infinity();
@@ -128,14 +128,14 @@ Verdict Judge::closest_hit(const Ray& ray, const Hit& claimed) const {
     if (!is_own && meeting.t - meeting.t_error <= static_cast<double>(claimed.t)) ++rivals;
   }
   if (!claimed.valid()) {
-    if (nearest_surely < std::numeric_limits<double>::infinity()) return Verdict::wrong;
-    return rivals == 0 ? Verdict::agrees : Verdict::edge_or_tie;
+    if (nearest_surely < std::numeric_limits<double>::infinity()) return Judgement::wrong;
+    return rivals == 0 ? Judgement::agrees : Judgement::edge_or_tie;
   }
   const double t = claimed.t;
   if (own.kind == Meeting::none || std::fabs(t - own.t) > own.t_error || t - own.t_error > nearest_surely) {
-    return Verdict::wrong;
+    return Judgement::wrong;
   }
-  return own.kind == Meeting::definite && rivals == 0 ? Verdict::agrees : Verdict::edge_or_tie;
+  return own.kind == Meeting::definite && rivals == 0 ? Judgement::agrees : Judgement::edge_or_tie;
 }
 
 }  // namespace boxwood

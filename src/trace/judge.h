@@ -7,7 +7,7 @@
 
 namespace boxwood {
 
-enum class Verdict : std::uint8_t {
+enum class Judgement : std::uint8_t {
   agrees,       ///< the hit, or the miss, is the one exact arithmetic finds
   edge_or_tie,  ///< within rounding of an edge, of another triangle at the same distance, or of the ray's limits
   wrong         ///< no rounding explains it
@@ -21,7 +21,7 @@ class Judge {
   explicit Judge(const Scene& scene);
 
   /// What to think of `claimed` as the closest hit of `ray`. O(placed triangles). Thread safe.
-  Verdict closest_hit(const Ray& ray, const Hit& claimed) const;
+  Judgement closest_hit(const Ray& ray, const Hit& claimed) const;
 
  private:
   struct WorldTriangle {

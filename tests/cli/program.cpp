@@ -32,6 +32,24 @@ namespace fs = std::filesystem;
   _exit(127);
 }
 
+/// Whether the process has a handler for Ctrl-C, which a program that is still being loaded has not.
+bool catches_interrupts(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigCgt:")) return std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1;
+  }
+  return false;
+}
+
+void interrupt(pid_t process, const RunOptions& options) {
+  using namespace std::chrono_literals;
+  for (int tries = 0; !options.kill && !catches_interrupts(process) && tries < 6000; ++tries) {
+    std::this_thread::sleep_for(10ms);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
+  kill(process, options.kill ? SIGKILL : SIGINT);
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& file) {
@@ -66,10 +84,7 @@ Outcome run_boxwood(const std::vector<std::string>& arguments, const RunOptions&
   const pid_t child = fork();
   if (child == 0) become_boxwood(pointers, folder.c_str(), out.c_str(), err.c_str());
   if (child < 0) throw std::runtime_error("fork failed");
-  if (options.interrupt_after_ms > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(options.interrupt_after_ms));
-    kill(child, options.kill ? SIGKILL : SIGINT);
-  }
+  if (options.interrupt_after_ms > 0) interrupt(child, options);
   int status = 0;
   waitpid(child, &status, 0);
   Outcome outcome;

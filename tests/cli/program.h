@@ -11,7 +11,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Starts the boxwood program in `folder`. `interrupt_after_ms` > 0 sends Ctrl-C then. `out_file` takes standard output
+/// Starts the boxwood program in `folder`. `interrupt_after_ms` > 0 sends Ctrl-C then, counted
+/// from when it is caught. `out_file` takes standard output
 /// instead of Outcome::out.
 struct RunOptions {
   std::filesystem::path folder = ".";

@@ -117,6 +117,26 @@ TEST(Order, WideTree_MadeBinaryFirst) {
   }
 }
 
+/// References leaf by leaf, in the order of the children from the root on.
+void visit(const Tree& tree, std::uint32_t number, std::vector<std::uint32_t>& references) {
+  const Tree::Node& node = tree.nodes[number];
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    node.is_leaf() ? references.push_back(tree.references[i]) : visit(tree, i, references);
+  }
+}
+
+TEST(Order, CollapsedAfterwards_KeptWithItsMark) {
+  const Scene scene = soup(200, 0.2f, 6);
+  const auto visited = [&](const std::string& recipe) {
+    const Tree tree = tree_of(scene.meshes[0], Recipe::parse(recipe));
+    for (const Tree::Node& node : tree.nodes) EXPECT_TRUE(node.is_leaf() || node.fixed_order) << recipe;
+    std::vector<std::uint32_t> references;
+    visit(tree, 0, references);
+    return references;
+  };
+  EXPECT_EQ(visited("sweep > order > collapse(4) > wide(4)"), visited("sweep > order > binary"));
+}
+
 TEST(SrdhBuilder, RepresentativeRays_FewerTestsThanSurfaceArea) {
   const Scene scene = soup(2000, 0.15f, 7);
   const ExpectedUse use = shadow_rays_in(scene);

@@ -15,7 +15,7 @@ TEST(Judge, FindsNoBruteForceAnswerWrong) {
     const test::Expected expected(named.scene, test::troubling_rays(named.scene, 600, 21));
     const Judge judge(named.scene);
     for (std::size_t i = 0; i < expected.rays.size(); ++i) {
-      EXPECT_NE(judge.closest_hit(expected.rays[i], expected.hits[i]), Verdict::wrong)
+      EXPECT_NE(judge.closest_hit(expected.rays[i], expected.hits[i]), Judgement::wrong)
           << named.name << ", ray " << i << ": "
           << test::describe(expected.rays[i], expected.hits[i], expected.hits[i]);
     }
@@ -39,7 +39,7 @@ TEST(Judge, AgreesWherePlainRaysHit) {
   const Judge judge(scene);
   std::size_t agreed = 0;
   for (std::size_t i = 0; i < expected.rays.size(); ++i) {
-    agreed += judge.closest_hit(expected.rays[i], expected.hits[i]) == Verdict::agrees ? 1 : 0;
+    agreed += judge.closest_hit(expected.rays[i], expected.hits[i]) == Judgement::agrees ? 1 : 0;
   }
   EXPECT_GE(agreed, expected.rays.size() - 5);
 }
@@ -54,12 +54,12 @@ TEST(Judge, CallsInventedAnswersWrong) {
     Hit hit = expected.hits[i];
     if (!hit.valid()) continue;
     hits += 3;
-    wrong += judge.closest_hit(ray, Hit{}) == Verdict::wrong ? 1 : 0;
+    wrong += judge.closest_hit(ray, Hit{}) == Judgement::wrong ? 1 : 0;
     hit.t *= 1.001f;
-    wrong += judge.closest_hit(ray, hit) == Verdict::wrong ? 1 : 0;
+    wrong += judge.closest_hit(ray, hit) == Judgement::wrong ? 1 : 0;
     hit.t = expected.hits[i].t;
     hit.primitive = (hit.primitive + 1) % 100;
-    wrong += judge.closest_hit(ray, hit) == Verdict::wrong ? 1 : 0;
+    wrong += judge.closest_hit(ray, hit) == Judgement::wrong ? 1 : 0;
   }
   EXPECT_GT(hits, 300u);
   EXPECT_GE(wrong + 5, hits);
@@ -69,8 +69,8 @@ TEST(Judge, WantsInvalidRaysToMiss) {
   const Judge judge(test::coincident(1));
   const Hit hit{1, 0, 0, 0, 0};
   for (const Ray& ray : test::invalid_rays({0.3f, 0.4f, -2}, {0, 0, 1})) {
-    EXPECT_EQ(judge.closest_hit(ray, Hit{}), Verdict::agrees);
-    EXPECT_EQ(judge.closest_hit(ray, hit), Verdict::wrong);
+    EXPECT_EQ(judge.closest_hit(ray, Hit{}), Judgement::agrees);
+    EXPECT_EQ(judge.closest_hit(ray, hit), Judgement::wrong);
   }
 }
 

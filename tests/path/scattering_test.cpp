@@ -14,6 +14,7 @@ SurfacePoint point_of(const Material& material) {
   SurfacePoint point;
   point.normal = {0, 0, 1};
   point.material = &material;
+  point.diffuse = material.diffuse;
   return point;
 }
 

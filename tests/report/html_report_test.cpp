@@ -35,6 +35,7 @@ StudyResult made_up() {
   table.figure.value = "trace_ms";
   table.rows = {"k"};
   table.columns = {"rays"};
+  table.published = {{"k", "ao & more"}, {"4", "12.5"}};
   result.tables.push_back({table, cells});
   for (const char* kind : {"line", "bar", "scatter"}) {
     PlotSpec plot;
@@ -114,6 +115,13 @@ TEST(HtmlReport, EveryPicture_IsInThePage) {
   const std::string html = page();
   EXPECT_EQ(count(html, "src=\"data:image/png;base64,AQID\""), 1u);
   EXPECT_EQ(count(html, "src=\"data:image/png;base64,AQIDBA==\""), 1u);
+}
+
+TEST(HtmlReport, PublishedTables_StandBesideOurs) {
+  const std::string html = page();
+  EXPECT_EQ(count(html, "As published"), 1u);
+  EXPECT_NE(html.find("<th class=\"n\">ao &amp; more</th>"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"n\">12.5</td>"), std::string::npos);
 }
 
 TEST(HtmlReport, TextOfOthers_IsNeverMarkup) {

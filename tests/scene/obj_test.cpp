@@ -64,8 +64,9 @@ TEST_F(Obj, MaterialsComeFromTheMaterialFile) {
   EXPECT_EQ(red.shininess, 10);
   EXPECT_EQ(lamp.emission, (Vec3{5, 5, 5}));
   EXPECT_EQ(lamp.specular, (Vec3{0.1f, 0.2f, 0.3f}));
-  ASSERT_EQ(scene.notes.messages.size(), 1u);
+  ASSERT_EQ(scene.notes.messages.size(), 2u);
   EXPECT_NE(scene.notes.messages[0].find("m.obj:10: the material 'none' is not defined"), std::string::npos);
+  EXPECT_NE(scene.notes.messages[1].find("brick.png: the texture is missing"), std::string::npos);
 }
 
 TEST_F(Obj, IlluminationModelsMakeMirrorsAndGlass) {

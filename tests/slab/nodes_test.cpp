@@ -20,7 +20,7 @@ Tree tree_over(const Scene& scene, std::uint32_t leaf_size = 1, bool marks = fal
 
 TEST(SplitWord, KeepsIndexSideAxisLeafAndFixedOrder) {
   for (const std::uint32_t index : {0u, 1u, 12345u, (1u << 27) - 1}) {
-    for (Side side = 0; side < 6; ++side) {
+    for (BoxSide side = 0; side < 6; ++side) {
       const auto expect = [&](auto word, bool leaf, bool fixed, std::uint32_t axis) {
         EXPECT_EQ(word.index(), index);
         EXPECT_EQ(word.flags().side(), side);
@@ -156,7 +156,7 @@ TEST(SlabPlanes, AtLeastHalfOfBothChildrensSidesLieInTheParents) {
       if (node.is_leaf()) continue;
       int shared = 0;
       for (std::uint32_t c = node.first; c < node.first + 2; ++c) {
-        for (Side side = 0; side < 6; ++side) {
+        for (BoxSide side = 0; side < 6; ++side) {
           shared += side_of(tree.nodes[c].bounds, side) == side_of(node.bounds, side) ? 1 : 0;
         }
       }
@@ -170,7 +170,7 @@ TEST(WideSlabPlanes, CarryTheirSideAndMoveOutwardByEightUnitsAtMost) {
   std::vector<float> values{0.0f, -0.0f, 1e12f, -1e12f, 1e-45f, -1e-45f, 1.0f, -1.0f};
   for (int i = 0; i < 1000; ++i) values.push_back(random.uniform(-100, 100));
   for (const float value : values) {
-    for (Side side = 0; side < 6; ++side) {
+    for (BoxSide side = 0; side < 6; ++side) {
       const float plane = plane_with_side(value, side);
       EXPECT_EQ(std::bit_cast<std::uint32_t>(plane) & 7, side);
       if (side & 1) {

@@ -49,7 +49,7 @@ TEST(Embree, IsRightWithinRounding) {
       structure.any_hits(rays, blocked);
       std::size_t wrong = 0, disagreements = 0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        wrong += judge.closest_hit(rays[i], hits[i]) == Verdict::wrong ? 1 : 0;
+        wrong += judge.closest_hit(rays[i], hits[i]) == Judgement::wrong ? 1 : 0;
         disagreements += hits[i].valid() == (blocked[i] != 0) ? 0 : 1;
       }
       // Its fast triangle test rounds more than the judge allows for, on a few rays.

@@ -8,6 +8,7 @@
 
 #include "study/studies.h"
 #include "study/study_result.h"
+#include "study/view_json.h"
 
 namespace boxwood::testing {
 namespace {
@@ -203,13 +204,20 @@ TEST(RunStudy, OnASceneThatIsNowhere_NamesWhatWasTried) {
   }
 }
 
-TEST(CameraText, ReadsBackExactly) {
+TEST(ViewText, TellsCamerasAndSettingsApart) {
   Camera camera;
   camera.eye = {0.1f, 1e-7f, 3e8f};
   Camera other = camera;
-  EXPECT_EQ(camera_json(camera), camera_json(other));
+  EXPECT_EQ(view_json(camera, "{}"), view_json(other, "{}"));
   other.eye.x = std::nextafter(other.eye.x, 1.0f);
-  EXPECT_NE(camera_json(camera), camera_json(other));
+  EXPECT_NE(view_json(camera, "{}"), view_json(other, "{}"));
+
+  RunSpec run;
+  run.ao_radius = 5;
+  const std::string settings = ray_settings_json(run, {});
+  EXPECT_TRUE(has_ray_settings(view_json(camera, settings), settings));
+  EXPECT_FALSE(has_ray_settings(view_json(camera, "{}"), settings));
+  EXPECT_FALSE(has_ray_settings(view_json(camera, settings), "{}"));
 }
 
 }  // namespace

@@ -89,6 +89,7 @@ TEST_P(StudyMistake, IsRefusedWithItsPlace) {
 }
 
 const std::string plot = head + two_recipes + "[[plot]]\nid = \"P\"\nvalue = \"trace_ms\"\n";
+const std::string table = head + two_recipes + "[[table]]\nid = \"T\"\nvalue = \"bytes\"\n";
 const std::string claim = head + two_recipes + "[[claim]]\nid = \"A\"\ntext = \"t\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -105,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"[run]\nprobes = [\"tme\"]\n" + head + two_recipes, "'time'"},
                       Mistake{"[run]\nsize = 3\n" + head + two_recipes, "[width, height]"},
                       Mistake{"[run]\nscenes = [\"cubes\"]\n" + head + two_recipes, "'cube'"},
+                      Mistake{table + "published = \"\"\"\na | b\nc\n\"\"\"", "has 1 cells in 'c' and 2"},
                       Mistake{claim, "needs an expectation"}, Mistake{claim + "above = 1", "needs 'value'"},
                       Mistake{claim + "above = 1\nbelow = 1\nvalue = \"trace_ms\"", "second expectation"},
                       Mistake{claim + "above = 1\nvalue = \"trace_m\"", "'trace_ms'"},
@@ -120,6 +122,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{plot + "x = \"bytes\"", "no factor 'bytes'"},
                       Mistake{plot + "x = \"bytes\"\nkind = \"scatter\"\nfront = [\"low\"]", "better ends"},
                       Mistake{plot + "x = \"k\"\nkind = \"scatter\"\nfront = [\"low\", \"high\"]", "arithmetic"}));
+
+TEST(StudyFile, PublishedTables_AreLinesOfCells) {
+  const Study study = parse(table + "published = \"\"\"\nscene | k = 4\n\nsmall room | 1.5 \n\"\"\"");
+  const std::vector<std::vector<std::string>> expected = {{"scene", "k = 4"}, {"small room", "1.5"}};
+  EXPECT_EQ(study.tables.at(0).published, expected);
+}
 
 TEST(StudyFile, ThatIsNotThere_IsNamed) { EXPECT_THROW(read_study("no-such-study.toml"), Error); }
 

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 
-#include "build/bins.h"
+#include "build/binned_cuts.h"
 #include "build/exhaustive/stages.h"
-#include "build/sweep.h"
 
 namespace boxwood {
 namespace {
@@ -58,10 +57,9 @@ std::vector<Candidate> candidates_of(const ReferenceSet& set, const Centroids& c
 
 std::uint32_t divide(std::span<Reference> references, const Centroids& centroids, const BinMapping& mapping,
                      const Candidate& candidate) {
-  const auto right = std::stable_partition(references.begin(), references.end(), [&](const Reference& reference) {
+  return partition(references, [&](const Reference& reference) {
     return mapping(centroids(reference), candidate.axis) < candidate.border;
   });
-  return static_cast<std::uint32_t>(right - references.begin());
 }
 
 class Foresight {

@@ -40,9 +40,9 @@ ClusterBlock BlockBuilder::build(std::size_t begin, std::size_t end, std::size_t
 /// Whether the references of a run are cheaper together with the next one than beside it. Costs leave out the node
 /// above: what is joined here cannot be parted later, so it has to pay for itself.
 bool BlockBuilder::extends(const Cluster& run, const Box& grown, const Box& next) const {
-  const std::uint32_t block = options_.leaf_block;
+  const std::uint32_t blocks = run.leaf_references / options_.leaf_block + 1;
   return run.leaf_references < options_.run &&
-         half_area(grown) * static_cast<float>(run.leaf_references / block + 1) <= run.cost + half_area(next);
+         half_area(grown) * static_cast<float>(blocks) <= run.cost + half_area(next);
 }
 
 /// Pushes the references as clusters, one each or in runs.
@@ -56,7 +56,8 @@ void BlockBuilder::push_references(std::size_t begin, std::size_t end) {
     const Box grown = unite(run.bounds, box);
     if (i > begin && extends(run, grown, box)) {
       run.bounds = grown;
-      run.cost = half_area(grown) * static_cast<float>(run.leaf_references / options_.leaf_block + 1);
+      const std::uint32_t blocks = run.leaf_references / options_.leaf_block + 1;
+      run.cost = half_area(grown) * static_cast<float>(blocks);
       ++run.leaf_references;
     } else {
       if (i > begin) push_run(run);

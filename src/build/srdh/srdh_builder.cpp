@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "boxwood/error.h"
+#include "build/binned_cuts.h"
 #include "build/srdh/shadow_split.h"
 #include "build/srdh/stages.h"
-#include "build/sweep.h"
 
 namespace boxwood {
 namespace {
@@ -86,10 +86,9 @@ class SrdhBuilder {
 
   std::size_t divide(std::span<Reference> references, const ShadowSplit& split) const {
     if (!split.found()) return references.size() / 2;
-    const auto right = std::stable_partition(references.begin(), references.end(), [&](const Reference& reference) {
+    return partition(references, [&](const Reference& reference) {
       return split.mapping(centroids_(reference), split.axis) < split.border;
     });
-    return static_cast<std::size_t>(right - references.begin());
   }
 
   /// Sends rays to the sides they visit: those whose box they meet, unless the side before ended them.

@@ -116,8 +116,8 @@ template <int N>
 class PacketPlanes {
  public:
   explicit PacketPlanes(const PacketRays<N>& rays) : rays_(rays) {
-    for (Side side = 0; side < 6; ++side) {
-      const Side axis = side >> 1;
+    for (BoxSide side = 0; side < 6; ++side) {
+      const BoxSide axis = side >> 1;
       const bool exits = (side & 1) != static_cast<std::uint32_t>(rays.negative[axis]);
       const float* inverse = rays.inverse[axis].lanes;
       rows_[side] = exits ? Row{rays.zero.lanes, rays.endless.lanes, inverse, rays.far_offset[axis].lanes}
@@ -125,7 +125,7 @@ class PacketPlanes {
     }
   }
 
-  HWY_INLINE bool narrow(float plane, Side side, const Parts<N>& parts, Parts<N>& left) const {
+  HWY_INLINE bool narrow(float plane, BoxSide side, const Parts<N>& parts, Parts<N>& left) const {
     const PacketTag<N> d;
     const Row& row = rows_[side];
     const auto planes = hn::Set(d, plane);

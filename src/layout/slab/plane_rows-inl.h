@@ -28,8 +28,8 @@ struct PlaneRows {
 
   explicit HWY_INLINE PlaneRows(const PreparedRay& ray) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (Side side = 0; side < 6; ++side) {
-      const Side axis = side >> 1;
+    for (BoxSide side = 0; side < 6; ++side) {
+      const BoxSide axis = side >> 1;
       const bool exits = (side & 1) != static_cast<std::uint32_t>(ray.negative[axis]);
       rows[side] = exits ? PlaneRow{0, infinity, ray.inverse[axis], ray.far_offset[axis]}
                          : PlaneRow{ray.inverse[axis], ray.near_offset[axis], 0, -infinity};
@@ -37,7 +37,7 @@ struct PlaneRows {
     rows[6] = rows[7] = {0, -infinity, 0, infinity};
   }
 
-  HWY_INLINE Part narrow(float plane, Side side, Part part) const {
+  HWY_INLINE Part narrow(float plane, BoxSide side, Part part) const {
     const PlaneRow& row = rows[side];
     const float t0 = fused(plane, row.near_inverse, -row.near_offset);
     const float t1 = fused(plane, row.far_inverse, -row.far_offset);

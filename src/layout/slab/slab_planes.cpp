@@ -5,10 +5,10 @@
 
 namespace boxwood {
 
-Side cut_by_best_side(const Box& box, Box& region) {
-  Side best = 0;
+BoxSide cut_by_best_side(const Box& box, Box& region) {
+  BoxSide best = 0;
   float least = std::numeric_limits<float>::infinity();
-  for (Side side = 0; side < 6; ++side) {
+  for (BoxSide side = 0; side < 6; ++side) {
     Box cut = region;
     side_of(cut, side) = side_of(box, side);
     const float surface = half_area(cut);
@@ -48,7 +48,7 @@ SlabFit slab_fit(const Tree& tree) {
     }
     for (std::uint32_t c = node.first; !node.is_leaf() && c < node.first + node.count; ++c) {
       regions[c] = regions[i];
-      const Side side = cut_by_best_side(tree.nodes[c].bounds, regions[c]);
+      const BoxSide side = cut_by_best_side(tree.nodes[c].bounds, regions[c]);
       fit.idle_planes += side_of(regions[c], side) == side_of(regions[i], side) ? 1 : 0;
     }
   }

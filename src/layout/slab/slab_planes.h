@@ -7,12 +7,12 @@
 
 namespace boxwood {
 
-inline float& side_of(Box& box, Side side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
-inline float side_of(const Box& box, Side side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
+inline float& side_of(Box& box, BoxSide side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
+inline float side_of(const Box& box, BoxSide side) { return (side & 1 ? box.upper : box.lower)[side >> 1]; }
 
 /// Cuts `region`, which holds `box`, by the side of `box` that leaves the smallest surface, and says which that is. Of
 /// equal ones the last, in the order lower x, upper x, lower y, … (spec 003, 2.3).
-Side cut_by_best_side(const Box& box, Box& region);
+BoxSide cut_by_best_side(const Box& box, Box& region);
 
 /// How well single slabs stand for the boxes of a tree.
 struct SlabFit {

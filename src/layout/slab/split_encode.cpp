@@ -15,14 +15,14 @@ namespace {
 
 /// What a node kind stores of the box, given the region that its parent guarantees and that it cuts.
 template <class Word>
-Side store(SlabNode<Word>& node, const Box& box, Box& region) {
-  const Side side = cut_by_best_side(box, region);
+BoxSide store(SlabNode<Word>& node, const Box& box, Box& region) {
+  const BoxSide side = cut_by_best_side(box, region);
   node.plane = side_of(region, side);
   return side;
 }
 
 template <class Word>
-Side store(BoxNode<Word>& node, const Box& box, Box& region) {
+BoxSide store(BoxNode<Word>& node, const Box& box, Box& region) {
   node.bounds = box;
   region = box;
   return 0;
@@ -64,7 +64,7 @@ class Encoder {
 
   Node encode(const Tree::Node& node, std::uint32_t pair, Box& region) const {
     Node out;
-    const Side side = store(out, node.bounds, region);
+    const BoxSide side = store(out, node.bounds, region);
     using Word = decltype(out.word);
     out.word = node.is_leaf()
                    ? Word(node.first, SplitFlags::leaf(side))

@@ -6,7 +6,7 @@
 namespace boxwood {
 
 /// A side of a box: 2 * axis, plus 1 for the upper side.
-using Side = std::uint32_t;
+using BoxSide = std::uint32_t;
 
 /// What the five flag bits of a node say. Bits 0-2: the side its plane stands for (0 to 5); bits 3-4: the axis along
 /// which its two children ascend, or 3 for a leaf. Of the codes that this leaves free, 6 and 7 in the low bits mark a
@@ -14,8 +14,8 @@ using Side = std::uint32_t;
 struct SplitFlags {
   static constexpr std::uint32_t bits = 5;
 
-  static constexpr std::uint32_t leaf(Side side) { return 3u << 3 | side; }
-  static constexpr std::uint32_t inner(Side side, std::uint32_t axis, bool fixed_order) {
+  static constexpr std::uint32_t leaf(BoxSide side) { return 3u << 3 | side; }
+  static constexpr std::uint32_t inner(BoxSide side, std::uint32_t axis, bool fixed_order) {
     return fixed_order ? (side >> 1) << 3 | 6u | (side & 1) : axis << 3 | side;
   }
 
@@ -23,7 +23,7 @@ struct SplitFlags {
   bool fixed_order() const { return (code & 7) >= 6; }
   bool is_leaf() const { return code >= 3u << 3; }
   std::uint32_t axis() const { return code >> 3 & 3; }
-  Side side() const { return fixed_order() ? 2 * axis() + (code & 1) : code & 7; }
+  BoxSide side() const { return fixed_order() ? 2 * axis() + (code & 1) : code & 7; }
 };
 
 /// Index and flags in 32 bits: 27 bits of index. A triangle number of a leaf, or the number of an inner node's pair of

@@ -13,7 +13,7 @@ namespace {
 std::size_t shared_sides(const Tree& tree, const Tree::Node& node) {
   std::size_t count = 0;
   for (std::uint32_t c = node.first; c < node.first + node.count; ++c) {
-    for (Side side = 0; side < 6; ++side) {
+    for (BoxSide side = 0; side < 6; ++side) {
       count += side_of(tree.nodes[c].bounds, side) == side_of(node.bounds, side) ? 1 : 0;
     }
   }

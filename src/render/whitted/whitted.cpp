@@ -40,10 +40,11 @@ struct RayQueue {
 
 /// Phong's share of a light that arrives along `to_light` (unit, reversed): Lambert plus a lobe round the mirror
 /// direction of the view.
-Vec3 phong(const Material& material, const Vec3& normal, const Vec3& view, const Vec3& to_light) {
+Vec3 phong(const SurfacePoint& point, const Vec3& normal, const Vec3& view, const Vec3& to_light) {
   const float facing_light = dot(normal, to_light);
   if (!(facing_light > 0)) return {};
-  Vec3 share = material.diffuse * facing_light;
+  const Material& material = *point.material;
+  Vec3 share = point.diffuse * facing_light;
   const float along = dot(mirrored(view, normal), to_light);
   if (material.specular != Vec3{} && along > 0) share += material.specular * std::pow(along, material.shininess);
   return share;
@@ -90,7 +91,7 @@ class WhittedBatch {
       const Vec3 view = normalize(queue.rays[i].direction);
       const Vec3 normal = facing(point.normal, view);
       const Vec3 glow = point.material->emits_behind || dot(point.normal, view) < 0 ? point.material->emission : Vec3{};
-      radiance_[queue.owners[i]] += weight * (glow + point.material->diffuse * rig_.ambient);
+      radiance_[queue.owners[i]] += weight * (glow + point.diffuse * rig_.ambient);
       light(point, normal, view, queue.owners[i], weight);
       if (may_spawn) spawn(point, normal, view, queue.owners[i], weight);
     }
@@ -110,7 +111,7 @@ class WhittedBatch {
         if (rig_light.normal != Vec3{}) arriving = arriving * std::max(0.0f, -dot(rig_light.normal, to_light));
       }
       if (rig_light.dark_cosine > -1) arriving = arriving * spot_share(rig_light, to_light);
-      const Vec3 color = weight * arriving * phong(*point.material, normal, view, to_light);
+      const Vec3 color = weight * arriving * phong(point, normal, view, to_light);
       if (!(largest(color) > 0)) continue;
       Ray ray{origin, 0, way};
       if (!rig_light.parallel) ray.t_far = 1;

@@ -1,6 +1,9 @@
 // Tables that the reader can sort.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "options/options.h"
 #include "report/cell_grid.h"
 #include "report/html/markup.h"
@@ -18,17 +21,39 @@ std::string where_text(const Where& where) {
   return escaped(out);
 }
 
-/// Ratios are coloured where their whole interval is on one side of 1.
-const char* side(const Cell& cell, bool ratio) {
-  if (!ratio) return "";
-  return cell.estimate.low > 1 ? " up" : cell.estimate.high < 1 ? " down" : "";
+/// Ratios are coloured where their whole interval is on one side of 1, the stronger the further they are from it: a
+/// heat map, whose darkest shade is a factor of 4.
+std::string shade(const Cell& cell, bool ratio) {
+  constexpr double darkest = 4;
+  const Estimate& e = cell.estimate;
+  if (!ratio || cell.exact || (e.low <= 1 && e.high >= 1)) return "\"";
+  const double strength = std::min(1.0, std::abs(std::log(e.median)) / std::log(darkest));
+  return fmt::format(" {}\" style=\"--heat:{:.0f}%\"", e.low > 1 ? "up" : "down", 100 * strength);
 }
 
 std::string cell_html(const Cell* cell, bool ratio) {
   if (!cell) return "<td class=\"n\">–</td>";
-  return fmt::format("<td class=\"n{}\" data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
-                     side(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
+  return fmt::format("<td class=\"n{} data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
+                     shade(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
                      escaped(cell_text(*cell)));
+}
+
+/// What the original printed, folded away where it is long.
+std::string published_html(const TableSpec& spec) {
+  if (spec.published.empty()) return "";
+  constexpr std::size_t short_enough = 8;
+  std::string out =
+      fmt::format("<details{}><summary>As published</summary><div class=\"wide\"><table class=\"sortable\">",
+                  spec.published.size() <= short_enough ? " open" : "");
+  for (std::size_t i = 0; i < spec.published.size(); ++i) {
+    out += i == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t k = 0; k < spec.published[i].size(); ++k) {
+      const char* tag = i == 0 || k == 0 ? "th" : "td";
+      out += fmt::format("<{0}{1}>{2}</{0}>", tag, k == 0 ? "" : " class=\"n\"", escaped(spec.published[i][k]));
+    }
+    out += i == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+  }
+  return out + "</tbody></table></div></details>";
 }
 
 std::string table_html(const TableResult& result, const std::string& prefix) {
@@ -51,7 +76,7 @@ std::string table_html(const TableResult& result, const std::string& prefix) {
     for (const Levels& head : grid.columns()) out += cell_html(grid.find(row, head), ratio);
     out += "</tr>\n";
   }
-  return out + "</tbody></table></div></figure>\n";
+  return out + "</tbody></table></div>" + published_html(spec) + "</figure>\n";
 }
 
 }  // namespace

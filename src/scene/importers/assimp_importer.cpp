@@ -5,12 +5,15 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "scene/importers/importer.h"
 #include "scene/importers/repeated_note.h"
+#include "scene/texture_file.h"
 
 namespace boxwood {
 namespace {
@@ -65,7 +68,10 @@ class AssimpConverter {
 
   Scene convert() {
     if (from_.mNumMaterials > 0xffff) throw Error(fmt::format("{}: has more than 65,535 materials; merge some", file_));
-    for (unsigned i = 0; i < from_.mNumMaterials; ++i) scene_.materials.push_back(to_material(*from_.mMaterials[i]));
+    for (unsigned i = 0; i < from_.mNumMaterials; ++i) {
+      scene_.materials.push_back(to_material(*from_.mMaterials[i]));
+      scene_.materials.back().texture = texture_of(*from_.mMaterials[i]);
+    }
     for (unsigned i = 0; i < from_.mNumMeshes; ++i) scene_.meshes.push_back(to_mesh(*from_.mMeshes[i]));
     place(*from_.mRootNode, {}, 0);
     add_cameras();
@@ -75,6 +81,34 @@ class AssimpConverter {
   }
 
  private:
+  /// The base colour's or the diffuse one, from a file or from within this one.
+  std::uint32_t texture_of(const aiMaterial& material) {
+    aiString name;
+    if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS &&
+        material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS) {
+      return Material::no_texture;
+    }
+    const aiTexture* embedded = from_.GetEmbeddedTexture(name.C_Str());
+    if (!embedded) {
+      std::string portable = name.C_Str();
+      std::ranges::replace(portable, '\\', '/');
+      return add_texture(scene_, std::filesystem::path(file_).parent_path() / portable);
+    }
+    const auto known = embedded_.find(embedded);
+    if (known != embedded_.end()) return known->second;
+    std::uint32_t number = Material::no_texture;
+    if (embedded->mHeight == 0) {  // compressed: mWidth bytes
+      try {
+        const std::span bytes(reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth);
+        scene_.textures.push_back(decode_texture(bytes, file_ + ", texture " + name.C_Str()));
+        number = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+      } catch (const Error& error) {
+        scene_.notes.messages.emplace_back(error.what());
+      }
+    }
+    return embedded_[embedded] = number;
+  }
+
   Mesh to_mesh(const aiMesh& from) {
     Mesh to;
     to.name = from.mName.C_Str();
@@ -169,6 +203,7 @@ class AssimpConverter {
   Scene scene_;
   std::vector<std::pair<std::string, Transform>> nodes_;
   RepeatedNote not_triangles_;
+  std::map<const aiTexture*, std::uint32_t> embedded_;  ///< numbers of those that were decoded
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ Imported import_with_assimp(const std::filesystem::path& file);
 /// The mesh of a PLY file, which may be compressed by gzip (.ply.gz); what was left out is said in `messages`.
 Mesh read_ply(const std::filesystem::path& file, std::vector<std::string>& messages);
 
-/// Materials of an MTL file, in its order. Throws Error naming the line.
-std::vector<Material> read_mtl(const std::filesystem::path& file);
+/// Materials of an MTL file, in its order; their textures are added to the scene. Throws Error naming the line.
+std::vector<Material> read_mtl(const std::filesystem::path& file, Scene& scene);
 
 }  // namespace boxwood

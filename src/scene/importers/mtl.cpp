@@ -1,8 +1,10 @@
-// Materials of Wavefront OBJ files: colours, shininess, opacity, refraction and mirrors; textures are passed over.
+// Materials of Wavefront OBJ files: colours, shininess, opacity, refraction and mirrors; of
+// textures the diffuse one.
 #include <algorithm>
 
 #include "scene/importers/importer.h"
 #include "scene/importers/text_file.h"
+#include "scene/texture_file.h"
 
 namespace boxwood {
 namespace {
@@ -19,6 +21,26 @@ void read_color(TextCursor& cursor, Vec3& color) {
   color.z = grey ? color.x : cursor.number("a colour");
 }
 
+/// The file that a map names: what follows its options, whose arguments are numbers, "on" or "off". Empty: none.
+std::string map_file(TextCursor& cursor) {
+  TextCursor ahead = cursor;
+  std::string_view word = ahead.word();
+  while (word.starts_with('-')) {
+    const bool named = word == "-imfchan" || word == "-type";
+    cursor.word();
+    word = ahead.word();
+    double ignored = 0;
+    for (bool first = true; parse_number(word, ignored) || word == "on" || word == "off" || (named && first);
+         first = false) {
+      cursor.word();
+      word = ahead.word();
+    }
+  }
+  std::string name(cursor.rest_of_line());
+  std::ranges::replace(name, '\\', '/');
+  return name;
+}
+
 /// What a material is made of only once all of its statements are known.
 struct Optics {
   float opacity = 1;
@@ -26,9 +48,12 @@ struct Optics {
   float illumination_model = 2;
 };
 
-void read_statement(TextCursor& cursor, std::string_view keyword, Material& material, Optics& optics) {
+void read_statement(TextCursor& cursor, std::string_view keyword, Material& material, Optics& optics,
+                    const std::filesystem::path& folder, Scene& scene) {
   if (keyword == "Kd") {
     read_color(cursor, material.diffuse);
+  } else if (keyword == "map_Kd") {
+    if (const std::string name = map_file(cursor); !name.empty()) material.texture = add_texture(scene, folder / name);
   } else if (keyword == "Ke") {
     read_color(cursor, material.emission);
   } else if (keyword == "Ks") {
@@ -65,7 +90,7 @@ void apply(const Optics& optics, Material& material) {
 
 }  // namespace
 
-std::vector<Material> read_mtl(const std::filesystem::path& file) {
+std::vector<Material> read_mtl(const std::filesystem::path& file, Scene& scene) {
   const std::string text = read_whole_file(file);
   std::vector<Material> materials;
   Optics optics;
@@ -79,7 +104,7 @@ std::vector<Material> read_mtl(const std::filesystem::path& file) {
       finish();
       materials.emplace_back().name = cursor.rest_of_line();
     } else if (!materials.empty()) {
-      read_statement(cursor, keyword, materials.back(), optics);
+      read_statement(cursor, keyword, materials.back(), optics, file.parent_path(), scene);
     }
   }
   finish();

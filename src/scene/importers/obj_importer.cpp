@@ -162,7 +162,7 @@ class ObjReader {
       return;
     }
     imported_.files.push_back(file);
-    for (Material& material : read_mtl(file)) {
+    for (Material& material : read_mtl(file, imported_.scene)) {
       std::string key = material.name;
       materials_.try_emplace(std::move(key), add_material(std::move(material)));
     }

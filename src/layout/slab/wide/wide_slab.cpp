@@ -56,7 +56,7 @@ WideSlabNodes encode_wide_slab(const Tree& tree, const WideSlabOptions& options)
       const Tree::Node& child = tree.nodes[number];
       regions[number] = regions[i];
       for (std::uint32_t plane = 0; plane < options.planes; ++plane) {
-        const Side side = cut_by_best_side(child.bounds, regions[number]);
+        const BoxSide side = cut_by_best_side(child.bounds, regions[number]);
         const float coded = plane_with_side(side_of(child.bounds, side), side);
         memory[plane * options.k + lane] = std::bit_cast<std::uint32_t>(coded);
       }
@@ -85,7 +85,7 @@ std::shared_ptr<const Layout> encode(const WideSlabOptions& options, Tree tree, 
 
 }  // namespace
 
-float plane_with_side(float value, Side side) {
+float plane_with_side(float value, BoxSide side) {
   const float outward = (side & 1 ? 1.0f : -1.0f) * std::numeric_limits<float>::infinity();
   while ((std::bit_cast<std::uint32_t>(value) & 7) != side) value = std::nextafter(value, outward);
   return value;

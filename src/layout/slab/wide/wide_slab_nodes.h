@@ -58,7 +58,7 @@ struct WideSlabNodes {
 };
 
 /// The nearest float that is not inside `value` as seen from within and carries `side` in its lowest three bits.
-float plane_with_side(float value, Side side);
+float plane_with_side(float value, BoxSide side);
 
 /// The fastest kernels this machine can run.
 Kernels<WideSlabNodes, TriangleLeaves> wide_slab_triangle_kernels(const TraceOptions& options, std::uint32_t k);
