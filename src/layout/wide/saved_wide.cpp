@@ -10,7 +10,8 @@ namespace {
 Kernels<WideNodes, TriangleLeaves> kernels_of(const Level<WideNodes, TriangleLeaves>&, const TraceOptions& trace) {
   return wide_triangle_kernels(trace);
 }
-Kernels<WideNodes, InstanceLeaves> kernels_of(const Level<WideNodes, InstanceLeaves>& level, const TraceOptions& trace) {
+Kernels<WideNodes, InstanceLeaves> kernels_of(const Level<WideNodes, InstanceLeaves>& level,
+                                              const TraceOptions& trace) {
   return wide_instance_kernels_of(level.nodes.k, trace);
 }
 
