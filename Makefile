@@ -51,13 +51,6 @@ lint: build check-format ## clang-format and clang-tidy over everything
 	@run-clang-tidy -p $(RELEASE) -quiet -j $(THREADS) -extra-arg=-Wno-unknown-warning-option '^(?!.*/(tests|examples|python)/)' > $(RELEASE)/lint.txt 2> $(RELEASE)/lint.log \
 	  && echo "clang-tidy finds nothing" || (cat $(RELEASE)/lint.txt; exit 1)
 
-format: ## Fail on a source that clang-format would change
-	@scripts/install-packages.sh --lint
-	@git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
-
-lint: build check-format ## clang-format and clang-tidy over everything
-	@git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P $(THREADS) -n 4 clang-tidy -p $(RELEASE) --quiet
-
 format: ## Rewrite all sources in the house format
 	@git ls-files '*.cpp' '*.h' | xargs clang-format -i
 

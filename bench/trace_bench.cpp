@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
-#include <ranges>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -264,9 +264,8 @@ int run(int argc, char** argv) {
   if (const char* cameras = std::getenv("TRACE_BENCH_CAMERAS")) scene.cameras = read_cameras(cameras);
   const Mesh& mesh = scene.meshes.front();
   std::vector<Structure> structures;
-  for (const auto part : std::views::split(recipes, ';')) {
-    structures.push_back(build(scene, std::string_view(part.begin(), part.end())));
-  }
+  std::istringstream each(recipes);
+  for (std::string recipe; std::getline(each, recipe, ';');) structures.push_back(build(scene, recipe));
 
   RaySetSettings settings;
   settings.camera = scene.cameras.front();

@@ -76,6 +76,7 @@ std::vector<Question> make_questions(const Scene& scene, const VerifyOptions& op
   const double affordable = std::max(1.0, std::min<double>(options.rays, most_triangle_tests / triangles));
   const auto share = static_cast<std::size_t>(std::ceil(affordable / static_cast<double>(sets.size())));
   std::vector<Question> questions;
+  questions.reserve(sets.size());
   for (const RaySet& set : sets) questions.push_back({set.kind, sampled(set.rays, share), {}});
   return questions;
 }

@@ -24,7 +24,7 @@ struct ViewerOptions {
 std::filesystem::path viewer_program() {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path viewer = self.parent_path() / "boxwood-viewer";
+  std::filesystem::path viewer = self.parent_path() / "boxwood-viewer";
   if (error || !std::filesystem::exists(viewer)) {
     throw Error(
         fmt::format("there is no viewer at '{}'; it is built where GLFW and Dear ImGui are installed "

@@ -6,6 +6,7 @@
 
 #include "math/sampling.h"
 #include "render/camera_rays.h"
+#include "render/clear_way.h"
 #include "render/ray_sets.h"
 #include "render/sample_random.h"
 #include "render/secondary_rays.h"
@@ -41,12 +42,8 @@ std::vector<Ray> successors(const Surfaces& surfaces, std::span<const Ray> rays,
 Light default_light(const RaySetContext& context) {
   const Camera& camera = context.settings.camera;
   const float distance = 0.1f * length(context.bounds.extent());
-  Ray way;
-  way.origin = camera.eye;
-  way.direction = (normalize(camera.up) - normalize(camera.direction)) * distance;
-  way.t_far = 1;
-  const Hit obstacle = context.structure.closest_hit(way);
-  return {camera.eye + way.direction * (obstacle.valid() ? 0.8f * obstacle.t : 1)};
+  const Vec3 way = (normalize(camera.up) - normalize(camera.direction)) * distance;
+  return {clear_end(context.structure, camera.eye, way)};
 }
 
 /// Those that have a place or a direction; in a scene that is lit by nothing at all, the default one.

@@ -59,7 +59,7 @@ RenderResult render(const Scene& scene, const Structure& structure, const Render
   Light white_sky;
   white_sky.kind = LightKind::sky;
   const Lights lights(scene, surfaces, white_sky);
-  const LightRig rig = make_light_rig(settings.lights, scene, surfaces, settings.camera);
+  const LightRig rig = make_light_rig(settings.lights, scene, structure, surfaces, settings.camera);
   const ShadingContext context{scene, surfaces, lights, rig, settings};
 
   RenderResult result;

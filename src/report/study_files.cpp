@@ -33,6 +33,7 @@ std::string cells_csv(const std::vector<Cell>& cells, const std::vector<std::str
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     std::vector<std::string> line;
+    line.reserve(head.size());
     for (const std::string& factor : factors) line.push_back(cell.factors.at(factor));
     line.push_back(name);
     for (const double x : {cell.estimate.median, cell.estimate.low, cell.estimate.high, cell.mean}) {

@@ -32,9 +32,9 @@ constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
 
 std::uint32_t add_texture(Scene& scene, const std::filesystem::path& file) {
   const std::string name = file.string();
-  const auto found = std::ranges::find(scene.textures, name, &Texture::file);
-  if (found == scene.textures.end()) scene.textures.push_back({name, 0, 0, {}});
-  return static_cast<std::uint32_t>(std::ranges::find(scene.textures, name, &Texture::file) - scene.textures.begin());
+  const auto number = std::ranges::find(scene.textures, name, &Texture::file) - scene.textures.begin();
+  if (number == std::ssize(scene.textures)) scene.textures.push_back({name, 0, 0, {}});
+  return static_cast<std::uint32_t>(number);
 }
 
 Texture decode_texture(std::span<const std::byte> bytes, const std::string& name) {

@@ -58,7 +58,7 @@ TEST_F(Textures, ComeBackFromTheCacheAndFollowTheirFiles) {
   std::string other = four_colors();
   other[18] = '\x10';
   write("t.tga", other);
-  EXPECT_EQ(load(file).textures.at(0).pixels[8], 0x10);
+  EXPECT_EQ(load(file).textures.at(0).pixels.at(8), 0x10);
 }
 
 TEST(TextureFile, Truncated_IsRefusedInOneSentenceOrFilledUp) {

@@ -9,20 +9,6 @@
 namespace boxwood::testing {
 namespace {
 
-const std::string study_head = R"toml(
-run = { repetitions = 8, size = [8, 8] }
-[[scene]]
-name = "small"
-find = ["small.ply"]
-[[scene]]
-name = "large"
-find = ["large.ply"]
-[[recipes]]
-label = "{method} {k}"
-recipe = "{method}(k={k}) > wide({k})"
-values = { method = ["median", "binned"], k = [2, 4, 8] }
-)toml";
-
 /// trace_ms of a recipe on a scene in a repetition.
 using Truth = std::function<double(const std::string& scene, const RecipeSpec& recipe, int repetition)>;
 
@@ -35,36 +21,25 @@ double noise(int repetition, std::size_t recipe) {
 /// Builds take 100 ms for k = 2, 120 for 4, 60 for 8.
 JudgedClaim judge_with(const std::string& claim, const Truth& truth, int repetitions = 8,
                        const std::string& value = "trace_ms") {
-  const Study study =
-      parse_study(study_head + "[[claim]]\nid = \"C\"\ntext = \"t\"\nvalue = \"" + value + "\"\n" + claim, "test.toml");
+  const Study study = parse_study(
+      made_up_study + "[[claim]]\nid = \"C\"\ntext = \"t\"\nvalue = \"" + value + "\"\n" + claim, "test.toml");
   const TemporaryStore folder;
   Store store = folder.open();
   const std::int64_t here = store.environment_number(this_environment());
   for (const SceneSpec& scene : study.scenes) {
     for (const RecipeSpec& recipe : study.recipes) {
-      Subject built;
-      built.study = study.name;
-      built.scene = scene.name;
-      built.scene_source = scene.find.front();
-      built.recipe = recipe.text;
-      built.probe = "build";
+      const Subject built = subject_of(study, scene, recipe, "build", 0);
       const std::string& k = recipe.factors.at("k");
       const std::vector<StoredValue> build = {{"build_ms", "ms", k == "2" ? 100.0 : k == "4" ? 120.0 : 60.0}};
       store.add(built, build, here);
       for (const char* view : {"a", "b"}) {
         for (int r = 0; r < repetitions; ++r) {
-          Subject s;
-          s.study = study.name;
-          s.scene = scene.name;
-          s.scene_source = scene.find.front();
+          Subject s = subject_of(study, scene, recipe, "time", static_cast<std::uint32_t>(r));
           s.triangles = scene.name == "small" ? 10 : 1000;
           s.view = view;
           s.width = s.height = 8;
           s.rays = "primary";
-          s.recipe = recipe.text;
-          s.probe = "time";
           s.seed = 1;
-          s.repetition = static_cast<std::uint32_t>(r);
           const std::vector<StoredValue> values = {{"trace_ms", "ms", truth(scene.name, recipe, r)},
                                                    {"hits", "rays", recipe.factors.at("k") == "8" ? 7.0 : 5.0}};
           store.add(s, values, here);

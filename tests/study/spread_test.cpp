@@ -12,23 +12,6 @@
 namespace boxwood::testing {
 namespace {
 
-const std::string spread_head = R"toml(
-run = { repetitions = 3, probes = ["build"] }
-[[scene]]
-name = "small"
-find = ["small.ply"]
-[[scene]]
-name = "large"
-find = ["large.ply"]
-[[recipes]]
-label = "{method} {k}"
-recipe = "{method}(k={k}) > wide({k})"
-values = { method = ["median", "binned"], k = [2, 4] }
-[[table]]
-id = "t"
-value = "build_ms"
-)toml";
-
 /// k = 4 builds in 100 ms; k = 2 in 50 and 200 (median), 300 and 400 (binned) on the small and the large scene.
 double build_time(const std::string& scene, const Factors& factors) {
   if (factors.at("k") == "4") return 100;
@@ -37,20 +20,14 @@ double build_time(const std::string& scene, const Factors& factors) {
 }
 
 TableResult table_of(const std::string& rest) {
-  const Study study = parse_study(spread_head + rest, "test.toml");
+  const Study study = parse_study(made_up_study + "[[table]]\nid = \"t\"\nvalue = \"build_ms\"\n" + rest, "test.toml");
   const TemporaryStore folder;
   Store store = folder.open();
   const std::int64_t here = store.environment_number(this_environment());
   for (const SceneSpec& scene : study.scenes) {
     for (const RecipeSpec& recipe : study.recipes) {
       for (std::uint32_t r = 0; r < 3; ++r) {
-        Subject built;
-        built.study = study.name;
-        built.scene = scene.name;
-        built.scene_source = scene.find.front();
-        built.recipe = recipe.text;
-        built.probe = "build";
-        built.repetition = r;
+        const Subject built = subject_of(study, scene, recipe, "build", r);
         store.add(built, std::vector<StoredValue>{{"build_ms", "ms", build_time(scene.name, recipe.factors)}}, here);
       }
     }

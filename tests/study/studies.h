@@ -28,4 +28,32 @@ class TemporaryStore {
   std::filesystem::path folder_;
 };
 
+/// Two scenes, two methods, three arities; tests make up the measurements.
+inline const std::string made_up_study = R"toml(
+run = { repetitions = 8, size = [8, 8] }
+[[scene]]
+name = "small"
+find = ["small.ply"]
+[[scene]]
+name = "large"
+find = ["large.ply"]
+[[recipes]]
+label = "{method} {k}"
+recipe = "{method}(k={k}) > wide({k})"
+values = { method = ["median", "binned"], k = [2, 4, 8] }
+)toml";
+
+/// A measurement of `probe` that such a test makes up.
+inline Subject subject_of(const Study& study, const SceneSpec& scene, const RecipeSpec& recipe, const char* probe,
+                          std::uint32_t repetition) {
+  Subject subject;
+  subject.study = study.name;
+  subject.scene = scene.name;
+  subject.scene_source = scene.find.front();
+  subject.recipe = recipe.text;
+  subject.probe = probe;
+  subject.repetition = repetition;
+  return subject;
+}
+
 }  // namespace boxwood::testing

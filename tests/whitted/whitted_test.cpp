@@ -227,6 +227,22 @@ TEST(Whitted, EveryLightSettingLightsTheSceneAndDiffersFromTheOthers) {
   EXPECT_GT(shadow_rays("area"), 10 * shadow_rays("point"));
 }
 
+TEST(Whitted, UnderACeiling_LightsStayBelowIt) {
+  const Scene room = test::cube(4);
+  RenderSettings settings;
+  settings.integrator = "whitted";
+  settings.width = settings.height = size;
+  settings.camera = {"under the ceiling", {0, 0.95f, 0}, {1, -0.4f, 0}, {0, 1, 0}, 70};
+  for (const char* lights : {"scene", "point", "two-points", "area"}) {
+    settings.lights = lights;
+    std::uint64_t lit = 0;
+    for (const RayKindReport& kind : render(room, build(room), settings).ray_kinds) {
+      if (kind.kind == "shadow") lit += kind.rays - kind.hits;
+    }
+    EXPECT_GT(lit, size * size / 2) << lights;
+  }
+}
+
 TEST(Whitted, AnUnknownLightSettingIsRefusedByName) {
   const Scene scene = table_scene();
   RenderSettings settings = settings_for(5);

@@ -10,6 +10,12 @@ namespace {
 /// Cache misses are started this many references ahead.
 constexpr std::size_t prefetch_distance = 16;
 
+/// Of the leaf that the run becomes with one more reference, whose box is `grown`.
+float cost_with_one_more(const Cluster& run, const Box& grown, std::uint32_t leaf_block) {
+  const std::uint32_t blocks = run.leaf_references / leaf_block + 1;
+  return half_area(grown) * static_cast<float>(blocks);
+}
+
 }  // namespace
 
 BlockBuilder::BlockBuilder(std::span<const Reference> references, const MortonOrder& order,
@@ -40,9 +46,8 @@ ClusterBlock BlockBuilder::build(std::size_t begin, std::size_t end, std::size_t
 /// Whether the references of a run are cheaper together with the next one than beside it. Costs leave out the node
 /// above: what is joined here cannot be parted later, so it has to pay for itself.
 bool BlockBuilder::extends(const Cluster& run, const Box& grown, const Box& next) const {
-  const std::uint32_t blocks = run.leaf_references / options_.leaf_block + 1;
   return run.leaf_references < options_.run &&
-         half_area(grown) * static_cast<float>(blocks) <= run.cost + half_area(next);
+         cost_with_one_more(run, grown, options_.leaf_block) <= run.cost + half_area(next);
 }
 
 /// Pushes the references as clusters, one each or in runs.
@@ -56,8 +61,7 @@ void BlockBuilder::push_references(std::size_t begin, std::size_t end) {
     const Box grown = unite(run.bounds, box);
     if (i > begin && extends(run, grown, box)) {
       run.bounds = grown;
-      const std::uint32_t blocks = run.leaf_references / options_.leaf_block + 1;
-      run.cost = half_area(grown) * static_cast<float>(blocks);
+      run.cost = cost_with_one_more(run, grown, options_.leaf_block);
       ++run.leaf_references;
     } else {
       if (i > begin) push_run(run);

@@ -9,6 +9,7 @@
 #include "boxwood/error.h"
 #include "math/sampling.h"
 #include "options/suggest.h"
+#include "render/clear_way.h"
 #include "render/lights.h"
 
 namespace boxwood {
@@ -20,10 +21,11 @@ constexpr std::size_t most_scene_samples = 16;  // point lights that stand for a
 
 /// The camera's frame, scaled by the scene.
 struct Stage {
+  const Structure& structure;
   Vec3 eye, ahead, right, up, center;
   float size;
 
-  Stage(const Scene& scene, const Camera& camera) {
+  Stage(const Scene& scene, const Structure& of_scene, const Camera& camera) : structure(of_scene) {
     const Box bounds = scene.bounds();
     center = bounds.empty() ? Vec3{} : bounds.center();
     size = bounds.empty() ? 1 : length(bounds.extent());
@@ -33,9 +35,9 @@ struct Stage {
     if (right == Vec3{}) right = normalize(cross(ahead, std::fabs(ahead.x) < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     up = cross(right, ahead);
   }
-  /// A little off the eye, so that a light in a closed room is inside of it.
+  /// A little off the eye, on its side of ceilings and walls.
   Vec3 beside_eye(float to_right, float upward) const {
-    return eye + (right * to_right + up * upward) * (0.05f * size);
+    return clear_end(structure, eye, (right * to_right + up * upward) * (0.05f * size));
   }
 };
 
@@ -193,13 +195,14 @@ std::span<const LightSetting> light_settings() {
   return table;
 }
 
-LightRig make_light_rig(std::string_view setting, const Scene& scene, const Surfaces& surfaces, const Camera& camera) {
+LightRig make_light_rig(std::string_view setting, const Scene& scene, const Structure& structure,
+                        const Surfaces& surfaces, const Camera& camera) {
   if (std::ranges::find(light_settings(), setting, &LightSetting::name) == light_settings().end()) {
     std::vector<std::string> names;
     for (const LightSetting& known : light_settings()) names.emplace_back(known.name);
     throw UsageError(fmt::format("unknown light setting '{}': {}", setting, suggest(setting, names)));
   }
-  const Stage stage(scene, camera);
+  const Stage stage(scene, structure, camera);
   if (setting != "scene") return preset(setting, stage);
   LightRig rig;
   for (const Light& light : scene.lights) add_scene_light(light, rig);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "boxwood/scene.h"
+#include "boxwood/structure.h"
 #include "render/surface.h"
 
 namespace boxwood {
@@ -36,7 +37,9 @@ struct LightSetting {
 /// Six settings as in the single slab study, which does not list its own (spec 003, 1.3), and `scene`.
 std::span<const LightSetting> light_settings();
 
-/// Throws UsageError naming the valid ones. A scene without lights of its own gets "point" for "scene".
-LightRig make_light_rig(std::string_view setting, const Scene& scene, const Surfaces& surfaces, const Camera& camera);
+/// Throws UsageError naming the valid ones. A scene without lights of its own gets "point" for "scene". `structure` is
+/// of the scene: lights beside the eye are kept from behind ceilings and walls.
+LightRig make_light_rig(std::string_view setting, const Scene& scene, const Structure& structure,
+                        const Surfaces& surfaces, const Camera& camera);
 
 }  // namespace boxwood

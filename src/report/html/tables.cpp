@@ -23,18 +23,18 @@ std::string where_text(const Where& where) {
 
 /// Ratios are coloured where their whole interval is on one side of 1, the stronger the further they are from it: a
 /// heat map, whose darkest shade is a factor of 4.
-std::string shade(const Cell& cell, bool ratio) {
+std::string cell_attributes(const Cell& cell, bool ratio) {
   constexpr double darkest = 4;
   const Estimate& e = cell.estimate;
-  if (!ratio || cell.exact || (e.low <= 1 && e.high >= 1)) return "\"";
+  if (!ratio || cell.exact || (e.low <= 1 && e.high >= 1)) return "class=\"n\"";
   const double strength = std::min(1.0, std::abs(std::log(e.median)) / std::log(darkest));
-  return fmt::format(" {}\" style=\"--heat:{:.0f}%\"", e.low > 1 ? "up" : "down", 100 * strength);
+  return fmt::format("class=\"n {}\" style=\"--heat:{:.0f}%\"", e.low > 1 ? "up" : "down", 100 * strength);
 }
 
 std::string cell_html(const Cell* cell, bool ratio) {
   if (!cell) return "<td class=\"n\">–</td>";
-  return fmt::format("<td class=\"n{} data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
-                     shade(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
+  return fmt::format("<td {} data-v=\"{}\" title=\"mean {:.6g}, n = {}, {} averaged\">{}</td>",
+                     cell_attributes(*cell, ratio), cell->estimate.median, cell->mean, cell->estimate.n, cell->members,
                      escaped(cell_text(*cell)));
 }
 

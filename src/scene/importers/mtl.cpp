@@ -1,5 +1,4 @@
-// Materials of Wavefront OBJ files: colours, shininess, opacity, refraction and mirrors; of
-// textures the diffuse one.
+// Materials of Wavefront OBJ files: colours, shininess, opacity, refraction and mirrors; of textures the diffuse one.
 #include <algorithm>
 
 #include "scene/importers/importer.h"
