@@ -13,6 +13,7 @@
 
 #include "boxwood/distance.h"
 #include "boxwood/error.h"
+#include "boxwood/moving.h"
 #include "boxwood/scene.h"
 #include "boxwood/structure.h"
 
@@ -70,19 +71,19 @@ void in_parallel(std::size_t rays, unsigned threads, const Trace& trace) {
   });
 }
 
-/// A structure, with the scene that it was built of.
-class PyStructure {
+/// What can be asked of a structure of either kind.
+class PyQueries {
  public:
-  PyStructure(Scene scene, const std::string& recipe, unsigned threads)
-      : scene_(std::move(scene)), structure_(build(scene_, recipe, {.threads = threads})) {}
+  virtual ~PyQueries() = default;
 
   py::array_t<Hit> closest_hits(const Floats& array, unsigned threads) const {
     const auto rays = rows_of<Ray>(array, "rays");
     py::array_t<Hit> out(array.shape(0));
     const auto hits = span_of(out);
     const py::gil_scoped_release release;
+    const Structure structure = current();
     in_parallel(rays.size(), threads, [&](std::size_t begin, std::size_t count) {
-      structure_.closest_hits(rays.subspan(begin, count), hits.subspan(begin, count));
+      structure.closest_hits(rays.subspan(begin, count), hits.subspan(begin, count));
     });
     return out;
   }
@@ -93,8 +94,9 @@ class PyStructure {
     static_assert(sizeof(bool) == sizeof(std::uint8_t));
     auto* blocked = reinterpret_cast<std::uint8_t*>(out.mutable_data());
     const py::gil_scoped_release release;
+    const Structure structure = current();
     in_parallel(rays.size(), threads, [&](std::size_t begin, std::size_t count) {
-      structure_.any_hits(rays.subspan(begin, count), {blocked + begin, count});
+      structure.any_hits(rays.subspan(begin, count), {blocked + begin, count});
     });
     return out;
   }
@@ -104,7 +106,7 @@ class PyStructure {
     auto lists = std::make_unique<HitLists>();
     {
       const py::gil_scoped_release release;
-      *lists = structure_.all_hits(rays);
+      *lists = current().all_hits(rays);
     }
     const auto offsets = static_cast<py::ssize_t>(lists->offsets.size());
     py::array_t<std::int64_t> starts(offsets);
@@ -123,9 +125,27 @@ class PyStructure {
     py::array_t<Hit> out({array.shape(0), static_cast<py::ssize_t>(k)});
     const auto hits = span_of(out);
     const py::gil_scoped_release release;
-    structure_.first_hits(rays, k, hits);
+    current().first_hits(rays, k, hits);
     return out;
   }
+
+  std::string recipe() const { return current().recipe().text(); }
+  std::size_t bytes() const { return current().report().bytes; }
+  double build_ms() const { return current().report().build_ms; }
+  std::uint64_t triangles() const { return current().report().primitives; }
+  std::uint64_t left_out() const { return current().report().left_out; }
+  virtual std::string repr() const = 0;
+
+ private:
+  /// A copy, which other threads cannot change.
+  virtual Structure current() const = 0;
+};
+
+/// A structure, with the scene that it was built of.
+class PyStructure final : public PyQueries {
+ public:
+  PyStructure(Scene scene, const std::string& recipe, unsigned threads)
+      : scene_(std::move(scene)), structure_(build(scene_, recipe, {.threads = threads})) {}
 
   py::array_t<NearestPoint> nearest_points(const Floats& array, float within) const {
     const auto points = rows_of<Vec3>(array, "points");
@@ -145,14 +165,12 @@ class PyStructure {
     return out;
   }
 
-  std::string recipe() const { return structure_.recipe().text(); }
-  std::size_t bytes() const { return structure_.report().bytes; }
-  double build_ms() const { return structure_.report().build_ms; }
-  std::uint64_t triangles() const { return structure_.report().primitives; }
-  std::uint64_t left_out() const { return structure_.report().left_out; }
-  std::string repr() const { return fmt::format("<boxwood.Structure of {} triangles, '{}'>", triangles(), recipe()); }
+  std::string repr() const override {
+    return fmt::format("<boxwood.Structure of {} triangles, '{}'>", triangles(), recipe());
+  }
 
  private:
+  Structure current() const override { return structure_; }
   /// Built when first asked for, without Python's lock.
   const DistanceQueries& distances() const {
     std::call_once(once_, [&] { distances_.emplace(scene_); });
@@ -165,11 +183,78 @@ class PyStructure {
   mutable std::optional<DistanceQueries> distances_;
 };
 
-std::unique_ptr<PyStructure> build_arrays(const Floats& vertices, const py::array& faces, const std::string& recipe,
-                                          unsigned threads) {
+/// A structure whose vertices move.
+class PyMoving final : public PyQueries {
+ public:
+  PyMoving(Scene scene, const std::string& recipe, const MotionPolicy& policy, unsigned threads)
+      : moving_(std::move(scene), recipe, policy, {.threads = threads}) {}
+
+  py::dict refit(const Floats& vertices) {
+    const auto positions = rows_of<Vec3>(vertices, "vertices");
+    UpdateReport report;
+    {
+      const py::gil_scoped_release release;
+      const std::lock_guard lock(mutex_);
+      moving_.move_vertices(0, positions);
+      report = moving_.update();
+    }
+    py::dict out;
+    out["update_ms"] = report.update_ms;
+    out["rebuilt_triangles"] = report.rebuilt_triangles;
+    out["reason"] = report.reason;
+    return out;
+  }
+
+  std::string why_no_refit() const {
+    const std::lock_guard lock(mutex_);
+    return moving_.why_no_refit();
+  }
+  double sah_ratio() const {
+    const std::lock_guard lock(mutex_);
+    const MotionQuality quality = moving_.quality();
+    return quality.sah_cost_when_built > 0 ? quality.sah_cost / quality.sah_cost_when_built : 1;
+  }
+  std::string repr() const override {
+    return fmt::format("<boxwood.MovingStructure of {} triangles, '{}'>", triangles(), recipe());
+  }
+
+ private:
+  Structure current() const override {
+    const std::lock_guard lock(mutex_);
+    return moving_.structure();
+  }
+
+  mutable std::mutex mutex_;
+  MovingStructure moving_;
+};
+
+Rebuild rebuild_of(const std::string& name) {
+  if (name == "when-it-pays") return Rebuild::when_it_pays;
+  if (name == "never") return Rebuild::never;
+  if (name == "worst-parts") return Rebuild::worst_parts;
+  if (name == "all") return Rebuild::all;
+  throw UsageError(fmt::format("'rebuild' is one of when-it-pays, never, worst-parts and all, not '{}'", name));
+}
+
+Scene scene_of(const Floats& vertices, const py::array& faces) {
   const auto positions = rows_of<Vec3>(vertices, "vertices");
   Scene scene;
   scene.add_mesh({positions.begin(), positions.end()}, triangles_of(faces));
+  return scene;
+}
+
+std::unique_ptr<PyMoving> moving_arrays(const Floats& vertices, const py::array& faces, const std::string& recipe,
+                                        const std::string& rebuild, double rays_per_update, double build_price,
+                                        unsigned threads) {
+  Scene scene = scene_of(vertices, faces);
+  const MotionPolicy policy{rebuild_of(rebuild), rays_per_update, build_price};
+  const py::gil_scoped_release release;
+  return std::make_unique<PyMoving>(std::move(scene), recipe, policy, threads);
+}
+
+std::unique_ptr<PyStructure> build_arrays(const Floats& vertices, const py::array& faces, const std::string& recipe,
+                                          unsigned threads) {
+  Scene scene = scene_of(vertices, faces);
   const py::gil_scoped_release release;
   return std::make_unique<PyStructure>(std::move(scene), recipe, threads);
 }
@@ -209,17 +294,25 @@ PYBIND11_MODULE(_core, module) {
   module.def("load", build_file, py::arg("scene"), py::arg("recipe") = "default", py::arg("threads") = 0);
 
   const float infinity = std::numeric_limits<float>::infinity();
-  py::class_<PyStructure>(module, "Structure")
-      .def("closest_hits", &PyStructure::closest_hits, rays, py::kw_only(), py::arg("threads") = 1)
-      .def("any_hits", &PyStructure::any_hits, rays, py::kw_only(), py::arg("threads") = 1)
-      .def("all_hits", &PyStructure::all_hits, rays)
-      .def("first_hits", &PyStructure::first_hits, rays, py::arg("k"))
+  py::class_<PyQueries>(module, "_Queries")
+      .def("closest_hits", &PyQueries::closest_hits, rays, py::kw_only(), py::arg("threads") = 1)
+      .def("any_hits", &PyQueries::any_hits, rays, py::kw_only(), py::arg("threads") = 1)
+      .def("all_hits", &PyQueries::all_hits, rays)
+      .def("first_hits", &PyQueries::first_hits, rays, py::arg("k"))
+      .def_property_readonly("recipe", &PyQueries::recipe)
+      .def_property_readonly("bytes", &PyQueries::bytes)
+      .def_property_readonly("build_ms", &PyQueries::build_ms)
+      .def_property_readonly("triangles", &PyQueries::triangles)
+      .def_property_readonly("left_out", &PyQueries::left_out)
+      .def("__repr__", &PyQueries::repr);
+  py::class_<PyStructure, PyQueries>(module, "Structure")
       .def("nearest_points", &PyStructure::nearest_points, points, py::arg("within") = infinity)
-      .def("signed_distances", &PyStructure::signed_distances, points)
-      .def_property_readonly("recipe", &PyStructure::recipe)
-      .def_property_readonly("bytes", &PyStructure::bytes)
-      .def_property_readonly("build_ms", &PyStructure::build_ms)
-      .def_property_readonly("triangles", &PyStructure::triangles)
-      .def_property_readonly("left_out", &PyStructure::left_out)
-      .def("__repr__", &PyStructure::repr);
+      .def("signed_distances", &PyStructure::signed_distances, points);
+  py::class_<PyMoving, PyQueries>(module, "MovingStructure")
+      .def(py::init(&moving_arrays), py::arg("vertices"), py::arg("faces"), py::arg("recipe") = "default",
+           py::arg("rebuild") = "when-it-pays", py::arg("rays_per_update") = MotionPolicy{}.rays_per_update,
+           py::arg("build_price") = MotionPolicy{}.build_price, py::arg("threads") = 0)
+      .def("refit", &PyMoving::refit, py::arg("vertices"))
+      .def_property_readonly("why_no_refit", &PyMoving::why_no_refit)
+      .def_property_readonly("sah_ratio", &PyMoving::sah_ratio);
 }

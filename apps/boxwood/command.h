@@ -63,6 +63,7 @@ void add_build(CommandSet& commands);
 void add_compare(CommandSet& commands);
 void add_advise(CommandSet& commands);
 void add_inspect(CommandSet& commands);
+void add_animate(CommandSet& commands);
 void add_verify(CommandSet& commands);
 void add_cameras(CommandSet& commands);
 void add_bench(CommandSet& commands);

@@ -24,6 +24,7 @@ constexpr void (*all_commands[])(CommandSet&) = {
     add_build,
     add_inspect,
     add_verify,
+    add_animate,
     add_view_command,
     add_cameras,
     add_video,

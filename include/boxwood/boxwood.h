@@ -6,6 +6,7 @@
 #include "boxwood/expected_use.h"  // IWYU pragma: export
 #include "boxwood/hit_filter.h"    // IWYU pragma: export
 #include "boxwood/hit_lists.h"     // IWYU pragma: export
+#include "boxwood/moving.h"        // IWYU pragma: export
 #include "boxwood/ray.h"           // IWYU pragma: export
 #include "boxwood/ray_set.h"       // IWYU pragma: export
 #include "boxwood/recipe.h"        // IWYU pragma: export

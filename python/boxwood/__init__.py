@@ -11,9 +11,20 @@ while the library works, so threads run beside each other.
 
 import numpy as _numpy
 
-from ._core import HIT, NEAREST_POINT, NO_PRIMITIVE, Error, Structure, UsageError, build, load
+from ._core import HIT, NEAREST_POINT, NO_PRIMITIVE, Error, MovingStructure, Structure, UsageError, build, load
 
-__all__ = ["HIT", "NEAREST_POINT", "NO_PRIMITIVE", "Error", "Structure", "UsageError", "build", "load", "rays"]
+__all__ = [
+    "HIT",
+    "NEAREST_POINT",
+    "NO_PRIMITIVE",
+    "Error",
+    "MovingStructure",
+    "Structure",
+    "UsageError",
+    "build",
+    "load",
+    "rays",
+]
 
 
 def rays(origins, directions, t_near=0.0, t_far=_numpy.inf):

@@ -1,4 +1,4 @@
-from typing import Tuple, Union
+from typing import Any, Dict, Literal, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ NO_PRIMITIVE: int
 class Error(RuntimeError): ...
 class UsageError(Error, ValueError): ...
 
-class Structure:
+class _Queries:
     """An immutable acceleration structure. Rays are float32 (n, 8) as boxwood.rays() makes them; a ray that has NaN, an
     infinite or zero direction, or coordinates beyond 1e12 hits nothing."""
 
@@ -26,11 +26,6 @@ class Structure:
         triangle once."""
     def first_hits(self, rays: npt.ArrayLike, k: int) -> npt.NDArray[np.void]:
         """HIT (n, k): the first k hits of each ray, then misses."""
-    def nearest_points(self, points: npt.ArrayLike, within: float = np.inf) -> npt.NDArray[np.void]:
-        """NEAREST_POINT (n,): the nearest point of the surface for each of `points`, float32 (n, 3); none beyond the
-        distance `within`. Runs on all processors. The first call of a structure's distances builds a tree for them."""
-    def signed_distances(self, points: npt.ArrayLike) -> npt.NDArray[np.float32]:
-        """float32 (n,): distances to the surface, negative inside. Raises Error unless the surface is closed."""
     @property
     def recipe(self) -> str: ...
     @property
@@ -42,6 +37,44 @@ class Structure:
     @property
     def left_out(self) -> int:
         """Triangles left out as degenerate or not finite."""
+
+class Structure(_Queries):
+    """One that stays as it was built."""
+
+    def nearest_points(self, points: npt.ArrayLike, within: float = np.inf) -> npt.NDArray[np.void]:
+        """NEAREST_POINT (n,): the nearest point of the surface for each of `points`, float32 (n, 3); none beyond the
+        distance `within`. Runs on all processors. The first call of a structure's distances builds a tree for them."""
+    def signed_distances(self, points: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """float32 (n,): distances to the surface, negative inside. Raises Error unless the surface is closed."""
+
+class MovingStructure(_Queries):
+    """One whose vertices move while its triangles stay what they are. Queries may run in other threads while it moves;
+    each sees one state."""
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        faces: npt.ArrayLike,
+        recipe: str = "default",
+        rebuild: Literal["when-it-pays", "never", "worst-parts", "all"] = "when-it-pays",
+        rays_per_update: float = 1e6,
+        build_price: float = 50,
+        threads: int = 0,
+    ) -> None:
+        """As build(). `rebuild` says when parts or all of it are built anew instead of refitted; "when-it-pays" expects
+        `rays_per_update` rays between two moves and takes a build to cost `build_price` node visits and triangle tests
+        per triangle. See docs/moving.md."""
+    def refit(self, vertices: npt.ArrayLike) -> Dict[str, Any]:
+        """Moves all vertices, float32 of the same shape as before, in world units. Returns what it took: update_ms (wall
+        time), rebuilt_triangles, and reason, a sentence where something had to be built anew that should have been
+        refitted, else empty. Raises UsageError on another shape."""
+    @property
+    def why_no_refit(self) -> str:
+        """Why this recipe's trees cannot be refitted, so that refit() builds anew; empty when they can."""
+    @property
+    def sah_ratio(self) -> float:
+        """Expected cost of a ray now over that when it was last built; 1 is as good as built. UsageError where nothing
+        can be refitted."""
 
 def build(vertices: npt.ArrayLike, faces: npt.ArrayLike, recipe: str = "default", threads: int = 0) -> Structure:
     """A structure over triangles: `vertices` float32 (n, 3) in world units, `faces` integers (m, 3), indices into them.

@@ -145,3 +145,30 @@ def test_load():
     structure = boxwood.load("generate:random(triangles=200)", "fast")
     assert structure.triangles == 200
     assert "wide(8)" in structure.recipe
+
+
+@pytest.mark.parametrize("rebuild", ["when-it-pays", "never", "worst-parts", "all"])
+def test_a_moving_structure_answers_as_one_built_anew(rebuild):
+    vertices, faces = soup(500)
+    moving = boxwood.MovingStructure(vertices, faces, rebuild=rebuild)
+    rays = some_rays(300)
+    random = np.random.default_rng(5)
+    for _ in range(3):
+        vertices = vertices + random.uniform(-0.1, 0.1, vertices.shape).astype(np.float32)
+        report = moving.refit(vertices)
+        assert report["update_ms"] >= 0 and report["reason"] == ""
+        assert report["rebuilt_triangles"] <= 500 and (rebuild != "never" or report["rebuilt_triangles"] == 0)
+        np.testing.assert_array_equal(moving.closest_hits(rays), boxwood.build(vertices, faces).closest_hits(rays))
+    assert moving.sah_ratio > 1 if rebuild == "never" else moving.sah_ratio >= 0.5
+    assert moving.why_no_refit == "" and "500 triangles" in repr(moving)
+
+
+def test_a_moving_structure_says_what_it_cannot():
+    vertices, faces = soup(50)
+    moving = boxwood.MovingStructure(vertices, faces, "best")
+    assert "cuts triangles" in moving.why_no_refit
+    assert moving.refit(vertices)["rebuilt_triangles"] == 50
+    with pytest.raises(boxwood.UsageError):
+        moving.refit(vertices[:-1])
+    with pytest.raises(ValueError):
+        boxwood.MovingStructure(vertices, faces, rebuild="sometimes")

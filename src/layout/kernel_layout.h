@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "layout/layout.h"
@@ -86,6 +87,15 @@ class KernelLayout final : public Layout {
   }
   void offer_hits(const Ray& ray, HitSink& sink) const override {
     kernels_.offer(level_, ray, Leaves::first_instance, sink);
+  }
+  bool refit(const Tree& tree, const Mesh& mesh) override {
+    if constexpr (std::is_same_v<Leaves, TriangleLeaves> && requires { level_.nodes.refit(tree); }) {
+      level_.nodes.refit(tree);
+      move_triangles(level_.leaves, mesh);
+      level_.extent = extent_of(level_.leaves, tree.empty() ? Box{} : tree.nodes[0].bounds, {});
+      return true;
+    }
+    return false;
   }
   std::size_t bytes() const override { return level_.nodes.bytes() + level_.leaves.bytes(); }
   std::vector<LayoutFact> facts() const override {

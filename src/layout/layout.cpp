@@ -58,6 +58,8 @@ void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& fac
 
 std::optional<SavedLevel> Layout::saved() const { return {}; }
 
+bool Layout::refit(const Tree&, const Mesh&) { return false; }
+
 void Layout::offer_below(const Ray&, std::uint32_t, HitSink&) const { refuse_to_offer(); }
 
 void Layout::refuse_to_offer() {

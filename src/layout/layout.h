@@ -13,7 +13,9 @@
 
 namespace boxwood {
 
+struct Mesh;
 struct SavedLevel;
+struct Tree;
 
 /// An immutable memory layout with its traversal kernels: the only thing a Structure holds. One virtual call per query,
 /// and one per visit of an instance, never per node. Every layout gives the same answers, to the bit; only a peer,
@@ -43,6 +45,11 @@ class Layout {
   virtual void offer_hits(const Ray& ray, HitSink& sink) const { offer_below(ray, 0, sink); }
   /// Throws the UsageError that says so.
   [[noreturn]] static void refuse_to_offer();
+
+  /// Takes over the boxes of `tree`, which is the tree it was made from but for them, and the positions of `mesh`, in
+  /// place. False, and nothing happens, where a layout cannot; it is then encoded anew. For the owner of the only
+  /// reference, while nobody traces. Parallel; O(n).
+  virtual bool refit(const Tree& tree, const Mesh& mesh);
 
   /// Bytes held, beyond the caller's mesh and the bottom levels.
   virtual std::size_t bytes() const = 0;

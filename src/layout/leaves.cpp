@@ -24,18 +24,28 @@ Transform inverse_of(const Instance& instance, std::uint32_t number) {
   }
 }
 
+template <class PrimitiveAt>
+void place_triangles(TriangleLeaves& leaves, const Mesh& mesh, const PrimitiveAt& primitive_at) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.triangles.size(), 1 << 12), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const std::uint32_t primitive = primitive_at(i);
+      const auto& [a, b, c] = mesh.triangles[primitive];
+      leaves.triangles[i] = {mesh.positions[a], mesh.positions[b], mesh.positions[c], primitive};
+    }
+  });
+}
+
 }  // namespace
 
 TriangleLeaves triangle_leaves(std::span<const std::uint32_t> references, const Mesh& mesh) {
   TriangleLeaves leaves;
   leaves.triangles.resize(references.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 1 << 12), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto& [a, b, c] = mesh.triangles[references[i]];
-      leaves.triangles[i] = {mesh.positions[a], mesh.positions[b], mesh.positions[c], references[i]};
-    }
-  });
+  place_triangles(leaves, mesh, [&](std::size_t i) { return references[i]; });
   return leaves;
+}
+
+void move_triangles(TriangleLeaves& leaves, const Mesh& mesh) {
+  place_triangles(leaves, mesh, [&](std::size_t i) { return leaves.triangles[i].primitive; });
 }
 
 InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const Contents& contents) {

@@ -50,6 +50,8 @@ struct InstanceLeaves {
 
 /// Copies the triangles that `references` name. Parallel; O(references).
 TriangleLeaves triangle_leaves(std::span<const std::uint32_t> references, const Mesh& mesh);
+/// Their positions as they are in `mesh` now. Parallel; O(triangles).
+void move_triangles(TriangleLeaves& leaves, const Mesh& mesh);
 /// Throws Error naming an instance whose transform has no inverse. O(references).
 InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const Contents& contents);
 

@@ -2,8 +2,6 @@
 #include "boxwood/structure.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +15,7 @@
 #include "structure/pipeline.h"
 #include "structure/same_length.h"
 #include "structure/size_limits.h"
+#include "structure/threads.h"
 #include "tree/statistics.h"
 
 namespace boxwood {
@@ -111,12 +110,7 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
   for (const Mesh& mesh : scene.meshes) check_named(mesh.triangles.size(), scene.instances.size());
   BuildReport report;
   std::shared_ptr<const Layout> layout;
-  // More threads than the machine has are for tests of determinism; TBB has to be told to allow them.
-  const auto available = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  std::max<std::size_t>(options.threads, available));
-  tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads));
-  arena.execute([&] {
+  run_on_threads(options.threads, [&] {
     const StageCall& first = recipe.stages().front();
     const ExpectedUse* use = checked_use(scene, recipe, options);
     if (first.stage->kind == StageKind::peer) {

@@ -7,14 +7,6 @@ namespace {
 
 constexpr std::size_t histogram_size = 33;  // sizes above 31 share the last entry
 
-double area(const Box& box) {
-  if (box.empty()) return 0;
-  const double x = static_cast<double>(box.upper.x) - box.lower.x;
-  const double y = static_cast<double>(box.upper.y) - box.lower.y;
-  const double z = static_cast<double>(box.upper.z) - box.lower.z;
-  return 2 * (x * y + y * z + z * x);
-}
-
 void count_in(std::vector<std::uint64_t>& histogram, std::size_t value) {
   const std::size_t entry = std::min(value, histogram_size - 1);
   if (histogram.size() <= entry) histogram.resize(entry + 1);
@@ -27,7 +19,7 @@ double overlap_of_children(const Tree& tree, const Tree::Node& node) {
   double overlap = 0;
   for (std::uint32_t i = 0; i < node.count; ++i) {
     for (std::uint32_t j = i + 1; j < std::min<std::uint32_t>(node.count, i + reach); ++j) {
-      overlap += area(intersect(tree.nodes[node.first + i].bounds, tree.nodes[node.first + j].bounds));
+      overlap += box_area(intersect(tree.nodes[node.first + i].bounds, tree.nodes[node.first + j].bounds));
     }
   }
   return overlap;
@@ -45,12 +37,20 @@ std::vector<std::uint32_t> depths_of(const Tree& tree) {
 
 }  // namespace
 
+double box_area(const Box& box) {
+  if (box.empty()) return 0;
+  const double x = static_cast<double>(box.upper.x) - box.lower.x;
+  const double y = static_cast<double>(box.upper.y) - box.lower.y;
+  const double z = static_cast<double>(box.upper.z) - box.lower.z;
+  return 2 * (x * y + y * z + z * x);
+}
+
 double sah_cost(const Tree& tree, const SahConstants& constants) {
   if (tree.empty()) return 0;
-  const double root_area = area(tree.nodes[0].bounds);
+  const double root_area = box_area(tree.nodes[0].bounds);
   double inner = 0, leaves = 0;
   for (const Tree::Node& node : tree.nodes) {
-    const double weight = root_area > 0 ? area(node.bounds) : 1;
+    const double weight = root_area > 0 ? box_area(node.bounds) : 1;
     if (node.is_leaf()) {
       leaves += weight * node.count;
     } else {
@@ -58,6 +58,16 @@ double sah_cost(const Tree& tree, const SahConstants& constants) {
     }
   }
   return (constants.traversal * inner + constants.intersection * leaves) / (root_area > 0 ? root_area : 1);
+}
+
+double sibling_overlap(const Tree& tree) {
+  double overlap = 0, parents = 0;
+  for (const Tree::Node& node : tree.nodes) {
+    if (node.is_leaf()) continue;
+    overlap += overlap_of_children(tree, node);
+    parents += box_area(node.bounds);
+  }
+  return parents > 0 ? overlap / parents : 0;
 }
 
 TreeStatistics statistics(const Tree& tree, const SahConstants& constants) {
@@ -88,7 +98,7 @@ TreeStatistics statistics(const Tree& tree, const SahConstants& constants) {
       parent_areas.resize(depths[i] + 1);
     }
     result.sibling_overlap[depths[i]] += overlap_of_children(tree, node);
-    parent_areas[depths[i]] += area(node.bounds);
+    parent_areas[depths[i]] += box_area(node.bounds);
   }
   if (result.leaves) result.mean_leaf_depth = static_cast<double>(leaf_depths) / static_cast<double>(result.leaves);
   if (result.inner_nodes) {

@@ -13,9 +13,16 @@ struct SahConstants {
   double intersection = 1;  ///< testing one primitive
 };
 
+/// In squared units, in double; 0 for an empty box.
+double box_area(const Box& box);
+
 /// (C_traversal * sum of inner areas + C_intersection * sum of leaf areas times their counts) / root area. In double,
 /// in node order. 0 for an empty tree; the count of a tree whose root has no area is taken with every probability 1.
 double sah_cost(const Tree& tree, const SahConstants& constants = {});
+
+/// Area of the pairwise intersections of siblings, over the area of their parents, all depths together; 0 is no
+/// overlap. Beyond 256 children only those less than 256 places apart are paired.
+double sibling_overlap(const Tree& tree);
 
 struct TreeStatistics {
   std::uint64_t inner_nodes = 0, leaves = 0, references = 0;

@@ -40,6 +40,23 @@ TEST(Render, HeatmapScale_IsTheOneAskedFor) {
   fs::remove(file);
 }
 
+TEST(Animate, Json_FollowsEveryFrameInEveryWay) {
+  const json document = run_for_json(
+      {"animate", "generate:sphere(12)", "--motion", "explode", "--frames", "2", "--size", "24x16", "--repeat", "1"});
+  EXPECT_EQ(document.at("frames"), 2);
+  ASSERT_EQ(document.at("rows").size(), 5u);
+  for (const json& row : document["rows"]) {
+    EXPECT_EQ(row.at("mismatches"), 0);
+    expect_estimate(row.at("update_ms"), 2);
+    expect_estimate(row.at("mrays_per_s"), 2);
+    EXPECT_GT(row.at("mean_sah_ratio"), 0);
+    EXPECT_EQ(row.at("frames").at("sah_cost").size(), 2u);
+  }
+  EXPECT_EQ(document["rows"][0].at("way"), "refit");
+  EXPECT_EQ(document["rows"][0].at("rebuilt_share"), 0);
+  EXPECT_EQ(document["rows"][3].at("rebuilt_share"), 1);
+}
+
 TEST(Compare, Json_HasTheDocumentedFields) {
   const json document = run_for_json(small_comparison);
   ASSERT_EQ(document.at("scenes").size(), 1u);

@@ -38,6 +38,11 @@ std::shared_ptr<const Layout> encode(const BinaryOptions&, Tree tree, const Cont
 
 }  // namespace
 
+void BinaryNodes::refit(const Tree& tree) {
+  const std::vector<std::uint32_t> places = depth_first_places(tree, false);
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) nodes[places[i]].bounds = tree.nodes[i].bounds;
+}
+
 Stage binary_stage() {
   return layout_stage<BinaryOptions>("binary", "two children per node, 32-byte nodes in depth-first order",
                                      "Pharr, Jakob, Humphreys 2023", OptionsOf<BinaryOptions>(), encode,

@@ -24,6 +24,8 @@ struct BinaryNodes {
 
   bool empty() const { return nodes.empty(); }
   std::size_t bytes() const { return nodes.size() * sizeof(BinaryNode); }
+  /// New boxes of the same tree. O(nodes).
+  void refit(const Tree& tree);
   void save(SavedLevel& out) const {
     out.facts.kind = SavedKind::binary;
     out.nodes = std::as_bytes(std::span(nodes));

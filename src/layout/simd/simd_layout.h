@@ -40,6 +40,13 @@ class SimdLayout final : public Layout {
   void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const override {
     kernels_.offer_hits(memory_.view, ray, instance, sink);
   }
+  bool refit(const Tree& tree, const Mesh& mesh) override {
+    if constexpr (requires { memory_.refit(tree, mesh); }) {
+      memory_.refit(tree, mesh);
+      return true;
+    }
+    return false;
+  }
   std::size_t bytes() const override { return memory_.bytes(); }
   std::optional<SavedLevel> saved() const override {
     if constexpr (requires(SavedLevel & out) { memory_.save(out); }) {

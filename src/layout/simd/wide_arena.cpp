@@ -150,6 +150,33 @@ float reach_of_box(const Box& box) {
   return reach;
 }
 
+/// Nodes and leaves, and the bound on coordinates that they have.
+template <int N, int L>
+void write_tree(const Placement<N, L>& placement, const Tree& tree, const Mesh& mesh, WideArena& out) {
+  std::byte* base = out.memory.data();
+  WideNode<N>& root = empty_node<N>(base + cache_line);
+  if (tree.empty()) return;
+  out.view.reach = reach_of_box(tree.nodes[0].bounds);
+  if (tree.nodes[0].is_leaf()) {
+    set_lane(root, 0, tree.nodes[0].bounds, wide_reference(placement.place(0), true));
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.nodes.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const Tree::Node& node = tree.nodes[i];
+      if (node.is_leaf()) {
+        write_leaf<L>(base + placement.place(i), tree, node, mesh);
+        continue;
+      }
+      WideNode<N>& wide = empty_node<N>(base + placement.place(i));
+      for (std::uint32_t c = 0; c < node.count; ++c) {
+        const Tree::Node& child = tree.nodes[node.first + c];
+        set_lane(wide, static_cast<int>(c), child.bounds,
+                 wide_reference(placement.place(node.first + c), child.is_leaf()));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<LayoutFact> WideShape::facts(std::size_t bytes) const {
@@ -183,38 +210,28 @@ template <int N, int L>
 WideArena encode_wide(const Tree& tree, const Mesh& mesh) {
   const Placement<N, L> placement(tree);
   WideArena out{Arena(placement.bytes()), {}, {}};
-  std::byte* base = out.memory.data();
-  out.view = {base, wide_reference(cache_line, false), 0, stack_need(tree), placement.bytes() > small_tree_bytes};
-  WideNode<N>& root = empty_node<N>(base + cache_line);
-  if (tree.empty()) return out;
-  out.view.reach = reach_of_box(tree.nodes[0].bounds);
+  out.view = {out.memory.data(), wide_reference(cache_line, false), 0, stack_need(tree),
+              placement.bytes() > small_tree_bytes};
   const std::size_t nodes = std::max<std::size_t>(placement.inner_nodes(), 1);  // a leaf alone has a node above it
-  out.shape = {nodes, nodes * sizeof(WideNode<N>), N, std::max<std::size_t>(tree.nodes.size() - 1, 1),
-               tree.references.size()};
-  if (tree.nodes[0].is_leaf()) {
-    set_lane(root, 0, tree.nodes[0].bounds, wide_reference(placement.place(0), true));
+  if (!tree.empty()) {
+    out.shape = {nodes, nodes * sizeof(WideNode<N>), N, std::max<std::size_t>(tree.nodes.size() - 1, 1),
+                 tree.references.size()};
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.nodes.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Tree::Node& node = tree.nodes[i];
-      if (node.is_leaf()) {
-        write_leaf<L>(base + placement.place(i), tree, node, mesh);
-        continue;
-      }
-      WideNode<N>& wide = empty_node<N>(base + placement.place(i));
-      for (std::uint32_t c = 0; c < node.count; ++c) {
-        const Tree::Node& child = tree.nodes[node.first + c];
-        set_lane(wide, static_cast<int>(c), child.bounds,
-                 wide_reference(placement.place(node.first + c), child.is_leaf()));
-      }
-    }
-  });
+  write_tree(placement, tree, mesh, out);
   return out;
+}
+
+template <int N, int L>
+void refit_wide(WideArena& arena, const Tree& tree, const Mesh& mesh) {
+  write_tree(Placement<N, L>(tree), tree, mesh, arena);
 }
 
 template WideArena encode_wide<4, 4>(const Tree&, const Mesh&);
 template WideArena encode_wide<8, 4>(const Tree&, const Mesh&);
 template WideArena encode_wide<8, 8>(const Tree&, const Mesh&);
 template WideArena encode_wide<16, 8>(const Tree&, const Mesh&);
+template void refit_wide<4, 4>(WideArena&, const Tree&, const Mesh&);
+template void refit_wide<8, 4>(WideArena&, const Tree&, const Mesh&);
+template void refit_wide<16, 8>(WideArena&, const Tree&, const Mesh&);
 
 }  // namespace boxwood

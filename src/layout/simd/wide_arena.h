@@ -60,4 +60,8 @@ std::uint32_t stack_need(const Tree& tree);
 template <int N, int L>
 WideArena encode_wide(const Tree& tree, const Mesh& mesh);
 
+/// Writes the same tree with other boxes, and the mesh with other positions, into the arena that was made for it.
+template <int N, int L>
+void refit_wide(WideArena& arena, const Tree& tree, const Mesh& mesh);
+
 }  // namespace boxwood

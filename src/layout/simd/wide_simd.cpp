@@ -18,6 +18,7 @@ template <int N, int L>
 struct SavableArena : WideArena {
   std::uint32_t triangles = 0;  ///< of the mesh
 
+  void refit(const Tree& tree, const Mesh& mesh) { refit_wide<N, L>(*this, tree, mesh); }
   void save(SavedLevel& out) const {
     out.facts.kind = SavedKind::simd_wide;
     out.facts.children = N;

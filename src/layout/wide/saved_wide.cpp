@@ -10,8 +10,9 @@ namespace {
 Kernels<WideNodes, TriangleLeaves> kernels_of(const Level<WideNodes, TriangleLeaves>&, const TraceOptions& trace) {
   return wide_triangle_kernels(trace);
 }
-Kernels<WideNodes, InstanceLeaves> kernels_of(const Level<WideNodes, InstanceLeaves>&, const TraceOptions& trace) {
-  return wide_instance_kernels(trace);
+Kernels<WideNodes, InstanceLeaves> kernels_of(const Level<WideNodes, InstanceLeaves>& level,
+                                              const TraceOptions& trace) {
+  return wide_instance_kernels_of(level.nodes.k, trace);
 }
 
 WideNodes saved_wide_nodes(const SavedLevel& level) {

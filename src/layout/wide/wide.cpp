@@ -64,8 +64,8 @@ struct ChooseWide {
   auto operator()(const Level<WideNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return wide_triangle_kernels(options);
   }
-  auto operator()(const Level<WideNodes, InstanceLeaves>&, const TraceOptions& options) const {
-    return wide_instance_kernels(options);
+  auto operator()(const Level<WideNodes, InstanceLeaves>& level, const TraceOptions& options) const {
+    return wide_instance_kernels_of(level.nodes.k, options);
   }
 };
 

@@ -35,5 +35,7 @@ struct WideNodes {
 /// The fastest kernels this machine can run.
 Kernels<WideNodes, TriangleLeaves> wide_triangle_kernels(const TraceOptions& options);
 Kernels<WideNodes, InstanceLeaves> wide_instance_kernels(const TraceOptions& options);
+/// The same with batches that enter instances together, where there are such for nodes of k children.
+Kernels<WideNodes, InstanceLeaves> wide_instance_kernels_of(std::uint32_t k, const TraceOptions& options);
 
 }  // namespace boxwood
