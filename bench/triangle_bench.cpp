@@ -22,15 +22,15 @@ namespace HWY_NAMESPACE {
 
 using D = Floats<4>;
 
-std::uint32_t watertight(const LeafBlock<4>& block, const PreparedRay& ray, const Ray&) {
+std::uint32_t watertight(const LeafBlock<4>& block, const TriangleRay& ray, const Ray&) {
   const D d;
-  const auto vertex = [&](int v) { return load_vertices(d, block, v, 0, ray.kx, ray.ky, ray.kz); };
+  const auto vertex = [&](int v) { return load_vertices(d, block, v, 0, ray.axes); };
   const Vertices<D> triangle[3] = {vertex(0), vertex(1), vertex(2)};
   const TriangleHits<D> hits = hit_triangles(d, triangle, broadcast_sheared(d, ray));
   return bits_of(d, hn::And(hits.hit, hn::Ge(hits.t, hn::Zero(d))));
 }
 
-std::uint32_t moeller_trumbore(const LeafBlock<4>& block, const PreparedRay&, const Ray& ray) {
+std::uint32_t moeller_trumbore(const LeafBlock<4>& block, const TriangleRay&, const Ray& ray) {
   const D d;
   using V = hn::Vec<D>;
   struct Vector {
@@ -62,8 +62,8 @@ std::uint32_t moeller_trumbore(const LeafBlock<4>& block, const PreparedRay&, co
 
 template <auto test>
 double seconds(const std::vector<LeafBlock<4>>& blocks, const std::vector<Ray>& rays, std::uint64_t& hits) {
-  std::vector<PreparedRay> prepared;
-  for (const Ray& ray : rays) prepared.push_back(prepare(ray, 2));
+  std::vector<TriangleRay> prepared;
+  for (const Ray& ray : rays) prepared.push_back(triangle_ray(prepare(ray, 2)));
   const double begin = now(Clock::thread_cpu);
   for (int repeat = 0; repeat < 200; ++repeat) {
     for (std::size_t r = 0; r < rays.size(); ++r) {

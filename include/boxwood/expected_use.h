@@ -21,7 +21,7 @@ struct ExpectedRays {
 /// A triangle that some ray ends on.
 struct SeenTriangle {
   std::uint32_t instance = 0, primitive = 0;
-  friend constexpr auto operator<=>(const SeenTriangle&, const SeenTriangle&) = default;
+  friend constexpr auto operator<=>(const SeenTriangle&, const SeenTriangle&) = default;  // NOLINT(*-nullptr)
 };
 
 /// A camera with the shape of its picture.

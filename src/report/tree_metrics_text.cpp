@@ -9,7 +9,7 @@ namespace boxwood {
 namespace {
 
 std::string overlap_text(const EndPointOverlap& overlap) {
-  const std::string epo = significant(overlap.epo, 4);
+  std::string epo = significant(overlap.epo, 4);
   if (overlap.standard_error == 0) return epo;
   return fmt::format("{} ± {} (standard error; sampled)", epo, significant(overlap.standard_error, 2));
 }

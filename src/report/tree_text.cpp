@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -17,7 +18,7 @@ std::string bar(double fraction) {
   constexpr int columns = 40;
   constexpr const char* eighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
   if (!(fraction > 0)) return "";
-  const int length = std::clamp(static_cast<int>(fraction * columns * 8 + 0.5), 1, columns * 8);
+  const int length = std::clamp(static_cast<int>(std::lround(fraction * columns * 8)), 1, columns * 8);
   std::string text;
   for (int i = 0; i < length / 8; ++i) text += "█";
   return text + eighths[length % 8];

@@ -276,7 +276,7 @@ Cell quotient(const Study& study, const Cell& a, const Cell& b) {
 
 std::string cell_name(const Factors& factors) {
   std::vector<std::string> parts;
-  for (const auto& [factor, level] : factors) parts.push_back(factor + " " + level);
+  for (const auto& [factor, level] : factors) parts.push_back(fmt::format("{} {}", factor, level));
   return parts.empty() ? "all" : option_text::join(parts, ", ");
 }
 

@@ -208,7 +208,7 @@ SceneSpec read_scene(const TomlValue& table, const Vocabulary& vocabulary) {
 std::vector<std::string> read_factors(TomlReader& reader, std::string_view key, const Vocabulary& vocabulary) {
   const TomlValue* list = reader.find(key);
   if (!list) return {};
-  const std::vector<std::string> factors = list->words();
+  std::vector<std::string> factors = list->words();
   for (const std::string& factor : factors) vocabulary.check_factor(*list, factor);
   return factors;
 }

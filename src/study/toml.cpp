@@ -79,9 +79,9 @@ const TomlValue& TomlReader::need(std::string_view key) {
   value_.fail(fmt::format("needs '{}'", key));
 }
 
-std::string TomlReader::text(std::string_view key, std::string otherwise) {
+std::string TomlReader::text(std::string_view key, std::string_view otherwise) {
   const TomlValue* value = find(key);
-  return value ? value->text() : std::move(otherwise);
+  return value ? value->text() : std::string(otherwise);
 }
 
 std::vector<std::string> TomlReader::words(std::string_view key, std::vector<std::string> otherwise) {

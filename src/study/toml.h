@@ -65,7 +65,7 @@ class TomlReader {
   const TomlValue* find(std::string_view key);
   /// Throws UsageError when it is not there.
   const TomlValue& need(std::string_view key);
-  std::string text(std::string_view key, std::string otherwise = {});
+  std::string text(std::string_view key, std::string_view otherwise = {});
   std::vector<std::string> words(std::string_view key, std::vector<std::string> otherwise = {});
   std::uint32_t integer(std::string_view key, std::uint32_t low, std::uint32_t high, std::uint32_t otherwise);
   double number(std::string_view key, double low, double high, double otherwise);

@@ -1,4 +1,6 @@
 // The only file that knows toml11, which takes long to compile.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -40,7 +42,7 @@ TomlValue convert(const Source& source, const std::string& path, const std::stri
     case toml::value_t::table: {
       TomlValue::Table table;
       for (const auto& [key, item] : source.as_table()) {
-        table.push_back({key, convert(item, path.empty() ? key : path + "." + key, file)});
+        table.push_back({key, convert(item, path.empty() ? key : fmt::format("{}.{}", path, key), file)});
       }
       std::ranges::stable_sort(table, {}, [](const auto& entry) { return entry.second.line; });
       out.data = std::move(table);

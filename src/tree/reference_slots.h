@@ -16,7 +16,7 @@ class ReferenceSlots {
 
   struct Slot {
     std::uint32_t primitive, slot;
-    friend auto operator<=>(const Slot&, const Slot&) = default;
+    friend auto operator<=>(const Slot&, const Slot&) = default;  // NOLINT(*-nullptr)
   };
   /// One for every reference, by primitive, then by slot.
   const std::vector<Slot>& by_primitive() const { return by_primitive_; }

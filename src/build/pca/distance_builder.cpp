@@ -24,8 +24,8 @@ struct Extremes {
 
   void add(Float4 point) {
     for (int axis = 0; axis < 3; ++axis) {
-      Float4 &lowest = points[static_cast<std::size_t>(2 * axis)],
-             &highest = points[static_cast<std::size_t>(2 * axis + 1)];
+      const std::size_t at = 2 * static_cast<std::size_t>(axis);
+      Float4 &lowest = points[at], &highest = points[at + 1];
       if (!any || point[axis] < lowest[axis]) lowest = point;
       if (!any || point[axis] > highest[axis]) highest = point;
     }

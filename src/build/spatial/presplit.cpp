@@ -113,7 +113,7 @@ void cut(const Reference& whole, std::uint32_t cuts, const MedianPlanes& planes,
       return std::max({e.x, e.y, e.z});
     };
     const float share = longest(below) / (longest(below) + longest(above));
-    const auto below_cuts = static_cast<std::uint32_t>(static_cast<float>(piece.cuts - 1) * share + 0.5f);
+    const auto below_cuts = static_cast<std::uint32_t>(std::floor(static_cast<float>(piece.cuts - 1) * share + 0.5f));
     open.push_back({with_box(whole, above), piece.cuts - 1 - below_cuts});
     open.push_back({with_box(whole, below), below_cuts});
   }

@@ -51,7 +51,7 @@ void ChildChooser::append(std::uint32_t node) {
 bool ChildChooser::join_leaves() {
   if (chosen_.size() <= 2) return false;
   const auto cost = [&](const Box& bounds, std::uint32_t references) {
-    return half_area(bounds) * static_cast<float>((references + options_.block - 1) / options_.block);
+    return half_area(bounds) * static_cast<float>(options_.blocks(references));
   };
   float best_gain = 0;
   std::size_t first = 0, second = 0;

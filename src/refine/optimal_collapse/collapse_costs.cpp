@@ -52,7 +52,7 @@ std::uint32_t CollapseCosts::share_of_first(std::uint32_t node, std::uint32_t co
 }
 
 float CollapseCosts::leaf_cost(const Box& bounds, std::uint32_t references) const {
-  return half_area(bounds) * static_cast<float>((references + options_.block - 1) / options_.block);
+  return half_area(bounds) * static_cast<float>(options_.blocks(references));
 }
 
 template <std::uint32_t Width>

@@ -14,6 +14,8 @@ struct OptimalCollapseOptions {
   std::uint32_t leaf = 4;   ///< most references in a leaf that is made by merging
   std::uint32_t block = 4;  ///< references tested at the price of one
   bool pack = true;         ///< join leaves of one node where that costs nothing
+
+  std::uint32_t blocks(std::uint32_t references) const { return (references + block - 1) / block; }
 };
 
 /// For every subtree of a binary tree: the least cost at which it can be written as up to i nodes that hang side by

@@ -62,10 +62,12 @@ void add_area_light(const Stage& stage, const Vec3& position, float side, float 
   const Vec3 reference = towards == Vec3{} ? stage.ahead : towards;
   const Vec3 u = normalize(cross(reference, std::fabs(reference.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
   const Vec3 v = cross(u, reference);
-  for (int i = 0; i < grid * grid; ++i) {
-    const float x = (static_cast<float>(i % grid) + 0.5f) / grid - 0.5f;
-    const float y = (static_cast<float>(i / grid) + 0.5f) / grid - 0.5f;
-    rig.lights.push_back(point_light(position + (u * x + v * y) * side, strength / (grid * grid)));
+  for (int row = 0; row < grid; ++row) {
+    for (int column = 0; column < grid; ++column) {
+      const float x = (static_cast<float>(column) + 0.5f) / grid - 0.5f;
+      const float y = (static_cast<float>(row) + 0.5f) / grid - 0.5f;
+      rig.lights.push_back(point_light(position + (u * x + v * y) * side, strength / (grid * grid)));
+    }
   }
 }
 
@@ -148,7 +150,7 @@ void add_glowing_surfaces(const Scene& scene, const Surfaces& surfaces, LightRig
   float next = step / 2, sum = 0;
   std::size_t number = 0;
   for (const GlowingTriangle& triangle : triangles) {
-    for (; next < sum + triangle.power; next += step, ++number) {
+    while (next < sum + triangle.power) {
       // Where on the triangle: the R2 sequence (Roberts 2018), folded into it.
       float u = std::fmod(0.5f + 0.7548776662f * static_cast<float>(number), 1.0f);
       float v = std::fmod(0.5f + 0.5698402910f * static_cast<float>(number), 1.0f);
@@ -162,6 +164,8 @@ void add_glowing_surfaces(const Scene& scene, const Surfaces& surfaces, LightRig
       // The sample stands for step / (sum of colours) of area.
       light.intensity = glow * (step / (glow.x + glow.y + glow.z) / pi);
       rig.lights.push_back(light);
+      next += step;
+      ++number;
     }
     sum += triangle.power;
   }

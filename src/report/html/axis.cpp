@@ -27,11 +27,13 @@ Axis even_axis(double low, double high) {
 Axis logarithmic_axis(double low, double high) {
   Axis axis{.low = low / 1.1, .high = high * 1.1, .logarithmic = true, .ticks = {}};
   const bool few = std::log10(axis.high / axis.low) < 1.5;
-  for (double power = std::pow(10.0, std::floor(std::log10(axis.low))); power <= axis.high; power *= 10) {
+  double power = std::pow(10.0, std::floor(std::log10(axis.low)));
+  while (power <= axis.high) {
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double tick = factor * power;
       if ((few || factor == 1) && tick >= axis.low && tick <= axis.high) axis.ticks.push_back(tick);
     }
+    power *= 10;
   }
   if (axis.ticks.size() < 2) {  // less than a decade: even steps look the same
     axis = even_axis(axis.low, axis.high);

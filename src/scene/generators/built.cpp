@@ -24,9 +24,9 @@ Mesh city_mesh(const City& o) {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   for (std::uint32_t tower = 0; tower < o.blocks * o.blocks * 4; ++tower) {
     Random random(o.seed, tower);
-    const std::uint32_t block = tower / 4;
+    const std::uint32_t block = tower / 4, row = block / o.blocks;
     const float x = static_cast<float>(block % o.blocks) + 0.1f + static_cast<float>(tower % 2) * 0.4f;
-    const float z = static_cast<float>(block / o.blocks) + 0.1f + static_cast<float>(tower / 2 % 2) * 0.4f;
+    const float z = static_cast<float>(row) + 0.1f + static_cast<float>(tower / 2 % 2) * 0.4f;
     const std::uint32_t stories = 1 + random.below(3);
     float floor = 0, inset = random.uniform(0, 0.05f);
     for (std::uint32_t story = 0; story < stories; ++story) {
@@ -86,9 +86,8 @@ Scene rack_scene(const Rack& o) {
     Transform place = uniform_rotation(u, v, w);
     const float scale = random.uniform(0.5f, 1.0f);
     place.x = place.x * scale, place.y = place.y * scale, place.z = place.z * scale;
-    const std::uint32_t layer = i / (side * side), rest = i % (side * side);
-    place.translation =
-        Vec3{static_cast<float>(rest % side), static_cast<float>(layer), static_cast<float>(rest / side)} * 2.2f;
+    const std::uint32_t layer = i / (side * side), row = i / side % side, column = i % side;
+    place.translation = Vec3{static_cast<float>(column), static_cast<float>(layer), static_cast<float>(row)} * 2.2f;
     scene.instances.push_back({0, place});
   }
   return scene;

@@ -51,7 +51,8 @@ Vec3 Colors::spectrum(const Parameters& parameters, const Parameter& parameter) 
   if (parameter.numbers.size() >= 2 && parameter.numbers.size() % 2 == 0) {
     float sum = 0;
     for (std::size_t i = 1; i < parameter.numbers.size(); i += 2) sum += parameter.numbers[i];
-    return grey(sum / static_cast<float>(parameter.numbers.size() / 2));
+    const std::size_t samples = parameter.numbers.size() / 2;
+    return grey(sum / static_cast<float>(samples));
   }
   notes_.add("spectrum", [&] {
     return fmt::format("{}: the spectrum '{}' is not known here; it was taken as 1", parameters.place(),
