@@ -34,8 +34,10 @@ test-sanitized: deps ## The whole test suite under ASan+UBSan
 	@cmake --build build/asan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
-test-threads: deps ## The parallel builders, and queries from many threads, under the thread sanitizer
-	@$(CONFIGURE) -B build/tsan $(SANITIZED) -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF >/dev/null
+test-threads: ## The parallel builders, and queries from many threads, under the thread sanitizer
+	@scripts/install-packages.sh dpkg-dev
+	@scripts/instrumented-tbb.sh build/tsan-tbb
+	@$(CONFIGURE) -B build/tsan $(SANITIZED) -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF -DTBB_DIR=$(CURDIR)/build/tsan-tbb/lib/cmake/TBB >/dev/null
 	@cmake --build build/tsan --target test_build test_fastbuild test_limits
 	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R 'AnyNumberOfThreads|ConcurrentQueries' -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
@@ -43,7 +45,7 @@ bench: build ## Build and trace speed as ratios to Embree 3, in one run
 	@$(RELEASE)/boxwood bench --peer embree
 
 check-format: ## Fail on a source that clang-format would change
-	@scripts/install-packages.sh --lint
+	@scripts/install-packages.sh clang-format clang-tidy
 	@git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
 
 # The files that unity builds make, so that headers are read once for many sources.

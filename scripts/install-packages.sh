@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs the Debian 12 packages that Boxwood builds and runs with, if any is missing. Needs root only then.
+# install-packages.sh [PACKAGE…]: installs the Debian 12 packages that Boxwood builds and runs with, and those named, if any
+# is missing. Needs root only then.
 set -eu
 packages="g++ cmake make ninja-build ccache mold
 libtbb-dev libfmt-dev libhwy-dev libeigen3-dev libassimp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinyexr-dev libembree-dev
@@ -10,7 +11,7 @@ chromium nodejs
 glmark2-data"
 # Some packages of nodejs bring npm along, and none other can then be installed.
 command -v npm >/dev/null || packages="$packages npm"
-if [ "${1:-}" = --lint ]; then packages="$packages clang-format clang-tidy"; fi
+packages="$packages $*"
 
 missing=""
 for package in $packages; do
