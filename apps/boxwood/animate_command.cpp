@@ -108,23 +108,28 @@ Json motion_json(const MotionFrames& frames, const MotionComparison& comparison,
           {"rows", std::move(rows)}};
 }
 
+MotionSettings motion_settings(const AnimateOptions& options, const Scene& rest) {
+  MotionSettings settings;
+  settings.recipe = options.recipe;
+  settings.rays_per_frame = options.rays_per_frame;
+  settings.build_price = options.build_price;
+  settings.threads = options.common.threads;
+  settings.repeats = options.repeats;
+  settings.kinds = options.kinds;
+  if (settings.kinds.empty()) settings.kinds = {"primary", "diffuse"};
+  settings.rays.camera = find_camera(rest, options.view);
+  settings.rays.width = options.view.width;
+  settings.rays.height = options.view.height;
+  return settings;
+}
+
 int run_animate(const AnimateOptions& options) {
   check_motion(options);
   Recipe::parse(options.recipe);
   const MotionFrames frames(options.scenes, options.motion, options.frames, options.strength);
   for (const std::string& note : scene_notes(frames.rest())) complain(note);
   check_interrupt();
-  MotionSettings settings{
-      .recipe = options.recipe,
-      .rays_per_frame = options.rays_per_frame,
-      .build_price = options.build_price,
-      .threads = options.common.threads,
-      .repeats = options.repeats,
-      .rays = {},
-      .kinds = options.kinds.empty() ? std::vector<std::string>{"primary", "diffuse"} : options.kinds};
-  settings.rays.camera = find_camera(frames.rest(), options.view);
-  settings.rays.width = options.view.width;
-  settings.rays.height = options.view.height;
+  const MotionSettings settings = motion_settings(options, frames.rest());
   MotionComparison comparison;
   {
     ProgressBar bar(stop_requested());

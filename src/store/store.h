@@ -60,7 +60,7 @@ struct StoredStudy {
 /// A picture that belongs to a study, kept with its figures.
 struct StoredPicture {
   std::string study, scene, view, recipe;
-  std::string kind;  ///< "rendering", "heatmap"
+  std::string kind;  ///< "rendering", "heatmap", "primitive tests"
   std::vector<unsigned char> png;
 };
 

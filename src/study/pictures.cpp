@@ -23,6 +23,18 @@ RenderSettings settings_of(const Study& study, const Camera& view, const char* i
   return settings;
 }
 
+/// Grey: primitive tests alone, which the nodes visited outshine in a heat map.
+Image primitive_tests_of(Image counts) {
+  for (Vec3& pixel : counts.pixels) pixel = {pixel.x, pixel.x, pixel.x};
+  return counts;
+}
+
+float common_scale(const std::vector<Image>& counts) {
+  float scale = 0;
+  for (const Image& image : counts) scale = std::max(scale, usual_maximum(image));
+  return scale;
+}
+
 }  // namespace
 
 void keep_pictures(const Study& study, const StudyScene& scene, const std::vector<PicturedRecipe>& recipes,
@@ -41,14 +53,15 @@ void keep_pictures(const Study& study, const StudyScene& scene, const std::vecto
     store.keep_picture({name, scene.name, view.name, label, kind, encode_png(image)});
   };
   keep("", "rendering", render(scene.scene, *recipes.front().structure, settings_of(study, view, "eyelight")).image);
-  std::vector<Image> counts;
-  float scale = 0;
+  std::vector<Image> counts, tests;
   for (const PicturedRecipe& recipe : recipes) {
     counts.push_back(render(scene.scene, *recipe.structure, settings_of(study, view, "heatmap")).counts);
-    scale = std::max(scale, usual_maximum(counts.back()));
+    tests.push_back(primitive_tests_of(counts.back()));
   }
+  const float counts_scale = common_scale(counts), tests_scale = common_scale(tests);
   for (std::size_t i = 0; i < recipes.size(); ++i) {
-    keep(recipes[i].label, "heatmap", scaled(std::move(counts[i]), scale));
+    keep(recipes[i].label, "heatmap", scaled(std::move(counts[i]), counts_scale));
+    keep(recipes[i].label, "primitive tests", scaled(std::move(tests[i]), tests_scale));
   }
 }
 

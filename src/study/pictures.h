@@ -15,8 +15,9 @@ struct PicturedRecipe {
   const Structure* structure;
 };
 
-/// Keeps a rendering of the scene's first view and a heat map of each recipe in the store, all on one scale; nothing
-/// when they are there already. Kind "rendering" has no recipe, "heatmap" has the label. Runs in the caller's arena.
+/// Keeps in the store a rendering of the scene's first view and, for each recipe, a heat map and a picture of primitive
+/// tests alone, each kind on one scale; nothing when they are there already. Kind "rendering" has no recipe, "heatmap"
+/// and "primitive tests" have the label. Runs in the caller's arena.
 void keep_pictures(const Study& study, const StudyScene& scene, const std::vector<PicturedRecipe>& recipes,
                    Store& store);
 

@@ -35,7 +35,7 @@ StudyResult made_up() {
   table.figure.value = "trace_ms";
   table.rows = {"k"};
   table.columns = {"rays"};
-  table.published = {{"k", "ao & more"}, {"4", "12.5"}};
+  table.published = {{"k", "ao & more", "remark"}, {"4", "12.5", "slow"}};
   result.tables.push_back({table, cells});
   for (const char* kind : {"line", "bar", "scatter"}) {
     PlotSpec plot;
@@ -121,7 +121,7 @@ TEST(HtmlReport, PublishedTables_StandBesideOurs) {
   const std::string html = page();
   EXPECT_EQ(count(html, "As published"), 1u);
   EXPECT_NE(html.find("<th class=\"n\">ao &amp; more</th>"), std::string::npos);
-  EXPECT_NE(html.find("<td class=\"n\">12.5</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"n\">12.5</td><td>slow</td>"), std::string::npos);  // figures right, words left
 }
 
 TEST(HtmlReport, TextOfOthers_IsNeverMarkup) {

@@ -111,7 +111,7 @@ TEST(RunStudy, MeasuresEverythingOnce) {
     on_front += plane.on_front[i] ? 1 : 0;
   }
   EXPECT_GE(on_front, 4u);                     // one of each panel at least
-  EXPECT_EQ(result.pictures.size(), 2u * 2u);  // of each scene a rendering and a heat map
+  EXPECT_EQ(result.pictures.size(), 2u * 3u);  // of each scene a rendering, a heat map, and primitive tests alone
   for (const StoredPicture& picture : result.pictures) EXPECT_EQ(picture.png.at(1), 'P');
 
   const std::vector<StudyResult> stored = evaluate_all(store);

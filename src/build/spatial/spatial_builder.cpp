@@ -13,6 +13,7 @@
 #include "build/spatial/split.h"
 #include "build/spatial/stages.h"
 #include "cost/registry.h"
+#include "math/large_memory.h"
 #include "tree/child_axis.h"
 
 namespace boxwood {
@@ -72,6 +73,9 @@ class SpatialBuilder {
     const std::unique_ptr<Branch> root = grow(all, 0, nullptr);
     Tree tree;
     tree.clipped_leaves = geometry_ != nullptr;
+    const Sizes sizes = sizes_of(*root);
+    reserve_large(tree.nodes, sizes.nodes);
+    reserve_large(tree.references, sizes.references);
     tree.nodes.emplace_back();
     stitch(*root, 0, tree);
     return tree;
@@ -135,6 +139,8 @@ class SpatialBuilder {
     branch->bounds = node.bounds.box();
     FragmentPair parts;
     if (node.size() <= serial_size) {
+      branch->nodes.reserve(2 * std::size_t{node.size()});
+      branch->references.reserve(2 * std::size_t{node.size()});
       branch->nodes.emplace_back();
       write(node, level, parent, 0, *branch);
       return branch;
@@ -189,6 +195,16 @@ class SpatialBuilder {
       }
     }
     return static_cast<std::uint32_t>(references.size()) - static_cast<std::uint32_t>(first);
+  }
+
+  struct Sizes {
+    std::size_t nodes = 0, references = 0;
+  };
+
+  static Sizes sizes_of(const Branch& branch) {
+    if (!branch.nodes.empty()) return {branch.nodes.size(), branch.references.size()};
+    const Sizes left = sizes_of(*branch.children[0]), right = sizes_of(*branch.children[1]);
+    return {1 + left.nodes + right.nodes, left.references + right.references};
   }
 
   /// Sets tree.nodes[place] to a branch's root and appends the rest of it.

@@ -30,7 +30,7 @@ std::string pictures_section(const StudyResult& result, const std::string& prefi
   if (result.pictures.empty()) return "";
   std::string out = fmt::format(
       "<section id=\"{}-pictures\"><h2>Pictures</h2><p>What each ray costs, on one scale per scene: "
-      "green inner nodes visited, red triangles tested.</p>\n",
+      "green inner nodes visited, red triangles tested; primitive tests alone in grey, on a scale of their own.</p>\n",
       prefix);
   std::vector<std::string> scenes;
   for (const StoredPicture& picture : result.pictures) {

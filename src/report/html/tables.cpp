@@ -39,6 +39,14 @@ std::string cell_html(const Cell* cell, bool ratio) {
 }
 
 /// What the original printed, folded away where it is long.
+/// Whether the cells of a published column are figures, which line up at the right, or words.
+bool is_figures(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
+  return std::all_of(rows.begin() + 1, rows.end(), [&](const std::vector<std::string>& row) {
+    const std::string cell = column < row.size() ? row[column] : "";
+    return cell.empty() || cell == "N/A" || cell.find_first_of("0123456789") <= 1;  // perhaps after a sign
+  });
+}
+
 std::string published_html(const TableSpec& spec) {
   if (spec.published.empty()) return "";
   constexpr std::size_t short_enough = 8;
@@ -49,7 +57,8 @@ std::string published_html(const TableSpec& spec) {
     out += i == 0 ? "<thead><tr>" : "<tr>";
     for (std::size_t k = 0; k < spec.published[i].size(); ++k) {
       const char* tag = i == 0 || k == 0 ? "th" : "td";
-      out += fmt::format("<{0}{1}>{2}</{0}>", tag, k == 0 ? "" : " class=\"n\"", escaped(spec.published[i][k]));
+      const char* style = is_figures(spec.published, k) ? " class=\"n\"" : "";
+      out += fmt::format("<{0}{1}>{2}</{0}>", tag, style, escaped(spec.published[i][k]));
     }
     out += i == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
   }
