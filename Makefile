@@ -34,12 +34,14 @@ test-sanitized: deps ## The whole test suite under ASan+UBSan
 	@cmake --build build/asan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
-test-threads: ## The parallel builders, and queries from many threads, under the thread sanitizer
+# One structure, image or answer on any number of threads, and one structure asked by many.
+THREADED := build fastbuild pca octree structure heuristics moving distance render measure limits
+test-threads: ## Builders, batches, renderers, and queries from many threads, under the thread sanitizer
 	@scripts/install-packages.sh dpkg-dev
 	@scripts/instrumented-tbb.sh build/tsan-tbb
 	@$(CONFIGURE) -B build/tsan $(SANITIZED) -DBOXWOOD_SANITIZE=thread -DBOXWOOD_APPS=OFF -DTBB_DIR=$(CURDIR)/build/tsan-tbb/lib/cmake/TBB >/dev/null
-	@cmake --build build/tsan --target test_build test_fastbuild test_limits
-	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/tsan.supp" ctest --test-dir build/tsan -R 'AnyNumberOfThreads|ConcurrentQueries' -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
+	@cmake --build build/tsan --target $(THREADED:%=test_%)
+	@ctest --test-dir build/tsan -R 'AnyNumberOfThreads|ConcurrentQueries' -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
 bench: build ## Build and trace speed as ratios to Embree 3, in one run
 	@$(RELEASE)/boxwood bench --peer embree

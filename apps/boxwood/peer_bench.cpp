@@ -149,6 +149,7 @@ PeerColumn measure(const std::string& name, std::vector<NamedRun> ours, const st
   const std::size_t split = ours.size();
   ours.insert(ours.end(), theirs.begin(), theirs.end());
   std::vector<Contestant> runs;
+  runs.reserve(ours.size());
   for (const NamedRun& run : ours) runs.push_back(run.run);
   const auto seconds = interleave(runs, {.repeats = repeats, .warmup = 0});
   const std::size_t best = index_of_fastest(seconds, 0, split);
@@ -259,6 +260,7 @@ std::vector<std::pair<std::string, Estimate>> means_over(const std::vector<PeerS
       for (std::size_t i = 0; i < logarithms.size(); ++i) logarithms[i] += std::log(column->ratios[i]);
     }
     std::vector<double> means;
+    means.reserve(logarithms.size());
     for (const double sum : logarithms) means.push_back(std::exp(sum / static_cast<double>(found)));
     out.emplace_back(first.name, estimate_median(means));
   }

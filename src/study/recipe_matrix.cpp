@@ -38,6 +38,7 @@ std::vector<Level> read_levels(const TomlValue& value) {
 std::vector<Level> pick_levels(const TomlValue& value, const std::vector<Level>& all) {
   if (value.is_text() && value.text() == "*") return all;
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Level& level : all) names.push_back(level.name);
   std::vector<Level> picked;
   for (const std::string& word : value.words()) {

@@ -95,7 +95,7 @@ TEST(Compare, CountsWhatTheRaysCost) {
   }
 }
 
-TEST(Compare, CountsAndHitsDoNotDependOnThreads) {
+TEST(Compare, CountsAndHitsAreTheSameOnAnyNumberOfThreads) {
   const Scene scene = soup_scene();
   const auto sets = ray_sets_of(scene);
   const auto recipes = recipes_of({"median > binary"});
