@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "layout/compressed/compressed_kernels.cpp"
 #include <hwy/foreach_target.h>
 
+#include "layout/compressed/open_quantized-inl.h"
 #include "layout/compressed/quantized_store-inl.h"
 #include "layout/simd/queries-inl.h"
 
@@ -19,8 +20,8 @@ WideKernels kernels() {
   WideKernels out = single_kernels<Store>();
 #if HWY_MAX_BYTES >= 32
   using Steps = std::conditional_t<N == 16, Steps16<Store>, Steps8<Store>>;
-  out.closest_hits = InFlight<Steps>::closest;
-  out.any_hits = InFlight<Steps>::any;
+  out.closest_hits = Batch<Steps>::closest;
+  out.any_hits = Batch<Steps>::any;
 #endif
   return out;
 }

@@ -12,6 +12,7 @@
 
 #include "layout/compressed/quantized_node.h"
 #include "layout/simd/lanes-inl.h"
+#include "layout/simd/triangles-inl.h"
 #include "layout/simd/wide_arena.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,29 +42,72 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode
   return hn::IfThenZeroElse(hn::Eq(place, hn::Set(du, no_child)), reference);
 }
 
-/// One vertex of four triangles, side by side.
-template <class Rows>
-HWY_INLINE void gather_vertex(const Rows& rows, int vertex, int lane, LeafBlock<8>& block) {
-#if HWY_TARGET > HWY_AVX2
-  // No instruction loads three floats where the fourth may not be there.
-  for (int i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) block.vertices[vertex][axis][lane + i] = (&rows[i]->x)[axis];
+/// The names of up to eight triangles, the first again for those missing. Returns how many there are; more than eight
+/// when the leaf goes on.
+HWY_INLINE int load_names(const std::uint32_t* names, std::uint32_t* out) {
+  using D = hn::CappedTag<std::uint32_t, 8>;
+  const D d;
+  const auto last = hn::Set(d, last_of_leaf);
+  std::uint32_t bits = 0;
+  for (int begin = 0; begin < 8; begin += lanes_of<D>) {
+    bits |= bits_of(d, hn::TestBit(hn::LoadU(d, names + begin), last)) << begin;
   }
-#else
-  const hn::FixedTag<float, 4> d;
-  const auto row = [&](int i) { return hn::MaskedLoad(hn::FirstN(d, 3), d, &rows[i]->x); };
+  const int count = bits == 0 ? 9 : std::countr_zero(bits) + 1;
+  for (int begin = 0; begin < 8; begin += lanes_of<D>) {
+    const auto used =
+        hn::Lt(hn::Iota(d, static_cast<std::uint32_t>(begin)), hn::Set(d, static_cast<std::uint32_t>(count)));
+    const auto name = hn::IfThenElse(used, hn::LoadU(d, names + begin), hn::Set(d, names[0]));
+    hn::Store(hn::AndNot(last, name), d, out + begin);
+  }
+  return count;
+}
+
+#if HWY_MAX_BYTES >= 32
+/// One vertex of eight triangles.
+HWY_INLINE Vertices<hn::FixedTag<float, 8>> gather_vertex(const WideView& view, const std::uint32_t* names,
+                                                          std::size_t vertex) {
+  const hn::FixedTag<float, 4> half;
+  const hn::FixedTag<float, 8> d;
+  const auto place = [&](int lane) HWY_ATTR {
+    const Vec3& position = view.positions[view.triangles[names[lane]][vertex]];
+    return hn::MaskedLoad(hn::FirstN(half, 3), half, &position.x);
+  };
+  const auto row = [&](int lane) HWY_ATTR { return hn::Combine(d, place(lane + 4), place(lane)); };
   const auto a = row(0), b = row(1), c = row(2), e = row(3);
   const auto low_even = hn::InterleaveLower(d, a, c), low_odd = hn::InterleaveLower(d, b, e);
   const auto high_even = hn::InterleaveUpper(d, a, c), high_odd = hn::InterleaveUpper(d, b, e);
-  hn::Store(hn::InterleaveLower(d, low_even, low_odd), d, block.vertices[vertex][0] + lane);
-  hn::Store(hn::InterleaveUpper(d, low_even, low_odd), d, block.vertices[vertex][1] + lane);
-  hn::Store(hn::InterleaveLower(d, high_even, high_odd), d, block.vertices[vertex][2] + lane);
-#endif
+  return {hn::InterleaveLower(d, low_even, low_odd), hn::InterleaveUpper(d, low_even, low_odd),
+          hn::InterleaveLower(d, high_even, high_odd)};
 }
+
+/// Missing triangles become a point.
+HWY_INLINE void gather_vertices(const WideView& view, int count, LeafBlock<8>& out) {
+  const hn::FixedTag<float, 8> d;
+  const auto used = hn::FirstN(d, static_cast<std::size_t>(count));
+  const auto first = gather_vertex(view, out.primitives, 0);
+  for (int vertex = 0; vertex < 3; ++vertex) {
+    const auto next = vertex == 0 ? first : gather_vertex(view, out.primitives, static_cast<std::size_t>(vertex));
+    hn::Store(hn::IfThenElse(used, next.x, first.x), d, out.vertices[vertex][0]);
+    hn::Store(hn::IfThenElse(used, next.y, first.y), d, out.vertices[vertex][1]);
+    hn::Store(hn::IfThenElse(used, next.z, first.z), d, out.vertices[vertex][2]);
+  }
+}
+#else
+HWY_INLINE void gather_vertices(const WideView& view, int count, LeafBlock<8>& out) {
+  for (int lane = 0; lane < 8; ++lane) {
+    const Triangle& triangle = view.triangles[out.primitives[lane]];
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      const Vec3& position = view.positions[triangle[lane < count ? vertex : 0]];
+      for (std::size_t axis = 0; axis < 3; ++axis) out.vertices[vertex][axis][lane] = position[axis];
+    }
+  }
+}
+#endif
 
 template <class Node, int N>
 struct QuantizedStore {
   static constexpr int children = N, triangles = 8;
+  static constexpr std::uint32_t row_bytes = N;
   using NodeBuffer = WideNode<N>;
   using BlockBuffer = LeafBlock<8>;
 
@@ -93,27 +137,17 @@ struct QuantizedStore {
     return out;
   }
 
+  static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
+    const Node& packed = reinterpret_cast<const Node*>(view.base)[reference >> 1];
+    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), power_of_two(packed.exponent[row / 2]),
+                          packed.origin[row / 2]);
+  }
+
   static HWY_INLINE const LeafBlock<8>& block(const WideView& view, WideReference reference, std::size_t number,
                                               BlockBuffer& out) {
-    const std::uint32_t* names = view.primitives + (reference >> 1) + number * 8;
-    std::uint32_t last = 0;
-    for (int lane = 0; lane < 8; ++lane) last |= (names[lane] >> 31) << lane;
-    const int count = last == 0 ? 8 : std::countr_zero(last) + 1;
-    const Vec3* vertices[3][8];
-    for (int lane = 0; lane < 8; ++lane) {
-      const bool used = lane < count;
-      const std::uint32_t name = names[used ? lane : 0] & ~last_of_leaf;
-      const Triangle& triangle = view.triangles[name];
-      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        vertices[vertex][lane] = view.positions + triangle[used ? vertex : 0];
-      }
-      out.primitives[lane] = name;
-    }
-    for (int vertex = 0; vertex < 3; ++vertex) {
-      gather_vertex(vertices[vertex], vertex, 0, out);
-      gather_vertex(vertices[vertex] + 4, vertex, 4, out);
-    }
-    out.primitives[0] |= last == 0 ? more_blocks : 0;
+    const int count = load_names(view.primitives + (reference >> 1) + number * 8, out.primitives);
+    gather_vertices(view, count, out);
+    out.primitives[0] |= count > 8 ? more_blocks : 0;
     return out;
   }
 

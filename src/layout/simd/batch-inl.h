@@ -89,7 +89,7 @@ class ClosestBatch {
         hits_[next_ray_] = closest_hit<Store>(view_, ray, CountNothing{});
         continue;
       }
-      start<Store::children>(slots_, slots_.at(offset), view_, ray, next_ray_++);
+      start<Store::row_bytes>(slots_, slots_.at(offset), view_, ray, next_ray_++);
       lists.nodes.add(offset);
       return;
     }
@@ -183,7 +183,7 @@ class AnyBatch {
       const PreparedRay ray = prepare(rays_[next_ray_], view_.reach);
       blocked_[next_ray_] = 0;
       if (HWY_UNLIKELY(!ray.valid)) continue;
-      start<Store::children>(slots_, slots_.at(offset), view_, ray, next_ray_++);
+      start<Store::row_bytes>(slots_, slots_.at(offset), view_, ray, next_ray_++);
       lists.nodes.add(offset);
       return;
     }

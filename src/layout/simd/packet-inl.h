@@ -19,11 +19,11 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// A child of a node, met at `entry` or later by every ray of the group; planes[N * row] are its box.
+/// A child of a node, met at `entry` or later by every ray of the group, and where its box is.
 struct PostponedBox {
   float entry;
-  WideReference child;
-  const float* planes;
+  WideReference child, parent;
+  std::uint32_t lane;
 };
 
 /// The intervals of a group in every lane.
@@ -70,13 +70,14 @@ HWY_INLINE std::uint32_t hit_children(const WideNode<N>& node, int begin, const 
 }
 
 /// Which registers of rays have one that meets the box; bit g for register g.
-template <int N>
-HWY_INLINE std::uint32_t registers_in_box(const RayGroup& group, const float* planes) {
+template <class Store>
+HWY_INLINE std::uint32_t registers_in_box(const WideView& view, const RayGroup& group, const PostponedBox& box) {
   const GroupLanes d;
   hn::Vec<decltype(d)> near_plane[3], far_plane[3];
   for (int axis = 0; axis < 3; ++axis) {
-    near_plane[axis] = hn::Set(d, planes[N * (2 * axis + group.negative[axis])]);
-    far_plane[axis] = hn::Set(d, planes[N * (2 * axis + 1 - group.negative[axis])]);
+    const int near_row = 2 * axis + group.negative[axis];
+    near_plane[axis] = hn::Set(d, Store::plane(view, box.parent, near_row, box.lane));
+    far_plane[axis] = hn::Set(d, Store::plane(view, box.parent, near_row ^ 1, box.lane));
   }
   std::uint32_t registers = 0;
   for (int g = 0; g < group_vectors; ++g) {
@@ -103,22 +104,23 @@ HWY_INLINE TriangleHits<D> hit_by_register(D d, const Vertices<D> (&triangle)[3]
   return hits;
 }
 
-/// Calls visit(triangle, primitive) for each triangle of a run of blocks, its vertices in every lane.
-template <int L, class Visit>
-HWY_INLINE void for_each_triangle(const LeafBlock<L>* block, const RayGroup& group, Visit visit) {
+/// Calls visit(triangle, primitive) for each triangle of a leaf, its vertices in every lane.
+template <class Store, class Visit>
+HWY_INLINE void for_each_triangle(const WideView& view, WideReference leaf, const RayGroup& group, Visit visit) {
   using D = GroupLanes;
   const D d;
+  typename Store::BlockBuffer buffer;
   bool more = true;
-  for (; more; ++block) {
-    more = (block->primitives[0] & more_blocks) != 0;
-    const std::uint32_t first = block->primitives[0] & ~more_blocks;
-    for (int lane = 0; lane < L; ++lane) {
-      const std::uint32_t primitive = block->primitives[lane] & ~more_blocks;
+  for (std::size_t i = 0; more; ++i) {
+    const auto& block = Store::block(view, leaf, i, buffer);
+    more = (block.primitives[0] & more_blocks) != 0;
+    const std::uint32_t first = block.primitives[0] & ~more_blocks;
+    for (int lane = 0; lane < Store::triangles; ++lane) {
+      const std::uint32_t primitive = block.primitives[lane] & ~more_blocks;
       if (lane > 0 && primitive == first) break;  // the rest are points that fill the block
       const auto vertex = [&](int v) {
-        return Vertices<D>{hn::Set(d, block->vertices[v][group.kx][lane]),
-                           hn::Set(d, block->vertices[v][group.ky][lane]),
-                           hn::Set(d, block->vertices[v][group.kz][lane])};
+        return Vertices<D>{hn::Set(d, block.vertices[v][group.kx][lane]), hn::Set(d, block.vertices[v][group.ky][lane]),
+                           hn::Set(d, block.vertices[v][group.kz][lane])};
       };
       const Vertices<D> triangle[3] = {vertex(0), vertex(1), vertex(2)};
       visit(triangle, primitive);
@@ -138,12 +140,13 @@ struct GroupHits {
 };
 
 /// True when a ray's limit came nearer.
-template <int L>
-HWY_INLINE bool closest_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group, GroupHits& best) {
+template <class Store>
+HWY_INLINE bool closest_in_leaf(const WideView& view, WideReference leaf, std::uint32_t registers, RayGroup& group,
+                                GroupHits& best) {
   const GroupLanes d;
   const hn::RebindToSigned<GroupLanes> di;
   bool nearer = false;
-  for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t primitive) HWY_ATTR {
+  for_each_triangle<Store>(view, leaf, group, [&](const auto& triangle, std::uint32_t primitive) HWY_ATTR {
     const auto number = hn::Set(di, static_cast<std::int32_t>(primitive));
     for (std::uint32_t left = registers; left != 0; left &= left - 1) {
       const int g = std::countr_zero(left);
@@ -169,11 +172,11 @@ HWY_INLINE bool closest_in_leaf(const LeafBlock<L>* block, std::uint32_t registe
 }
 
 /// A ray that is blocked gets a limit before its beginning and so meets nothing more. True when one was.
-template <int L>
-HWY_INLINE bool any_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, RayGroup& group) {
+template <class Store>
+HWY_INLINE bool any_in_leaf(const WideView& view, WideReference leaf, std::uint32_t registers, RayGroup& group) {
   const GroupLanes d;
   bool found = false;
-  for_each_triangle(block, group, [&](const auto& triangle, std::uint32_t) HWY_ATTR {
+  for_each_triangle<Store>(view, leaf, group, [&](const auto& triangle, std::uint32_t) HWY_ATTR {
     for (std::uint32_t left = registers; left != 0; left &= left - 1) {
       const int g = std::countr_zero(left);
       const auto hits = hit_by_register(d, triangle, group, g);
@@ -191,11 +194,13 @@ HWY_INLINE bool any_in_leaf(const LeafBlock<L>* block, std::uint32_t registers, 
 inline constexpr int group_budget = 640;
 
 /// Walks the tree for a group, nearest children first; at each leaf that a ray may meet calls
-/// at_leaf(blocks, registers), which returns true when limits changed. False when the budget ran out: the rays lie so
+/// at_leaf(leaf, registers), which returns true when limits changed. False when the budget ran out: the rays lie so
 /// far apart, for triangles of this size, that they share little, and the walk is not complete.
-template <int N, int L, class AtLeaf>
+template <class Store, class AtLeaf>
 HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf at_leaf) {
+  constexpr int N = Store::children;
   using D = Floats<N>;
+  typename Store::NodeBuffer buffer;
   const GroupSlabs<D> slabs(group);
   PostponedBox stack[wide_stack_limit];
   PostponedBox* top = stack;
@@ -203,13 +208,13 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf a
   WideReference current = view.root;
   alignas(64) float entries[N];
   for (int budget = group_budget; budget > 0; --budget) {
-    const WideNode<N>& node = *reinterpret_cast<const WideNode<N>*>(view.base + wide_offset(current));
+    const WideNode<N>& node = Store::node(view, current, buffer);
     std::uint32_t bits = 0;
     for (int begin = 0; begin < N; begin += lanes_of<D>) bits |= hit_children(node, begin, slabs, t_limit, entries);
     PostponedBox* const bottom = top;
     for (; bits != 0; bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
-      const PostponedBox next{entries[lane], node.children[lane], &node.planes[0][lane]};
+      const PostponedBox next{entries[lane], node.children[lane], current, static_cast<std::uint32_t>(lane)};
       PostponedBox* place = top++;
       for (; place != bottom && place[-1].entry < next.entry; --place) *place = place[-1];
       *place = next;
@@ -220,24 +225,23 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf a
       if (!(next.entry <= t_limit)) continue;
       current = next.child;
       if (!is_leaf(current)) break;
-      const std::uint32_t registers = registers_in_box<N>(group, next.planes);
+      const std::uint32_t registers = registers_in_box<Store>(view, group, next);
       budget -= 2 + std::popcount(registers);
       if (registers == 0) continue;
-      const auto* blocks = reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(current));
-      if (at_leaf(blocks, registers)) t_limit = largest_of(group.t_limit);
+      if (at_leaf(current, registers)) t_limit = largest_of(group.t_limit);
     }
   }
   return false;
 }
 
 /// False when the group is not worth it; nothing is written then.
-template <int N, int L>
+template <class Store>
 HWY_NOINLINE bool closest_hits_of_group(const WideView& view, RayGroup& group, Hit* hits) {
   const GroupLanes d;
   GroupHits best;
-  const auto at_leaf = [&](const LeafBlock<L>* blocks, std::uint32_t registers)
-                           HWY_ATTR { return closest_in_leaf(blocks, registers, group, best); };
-  if (!walk_group<N, L>(view, group, at_leaf)) return false;
+  const auto at_leaf = [&](WideReference leaf, std::uint32_t registers)
+                           HWY_ATTR { return closest_in_leaf<Store>(view, leaf, registers, group, best); };
+  if (!walk_group<Store>(view, group, at_leaf)) return false;
   for (int g = 0; g < group_vectors; ++g) {
     const auto determinant = hn::Load(d, best.determinant.lanes[g]);
     alignas(64) float u[group_lanes], v[group_lanes];
@@ -255,11 +259,11 @@ HWY_NOINLINE bool closest_hits_of_group(const WideView& view, RayGroup& group, H
 }
 
 /// False when the group is not worth it; nothing is written then.
-template <int N, int L>
+template <class Store>
 HWY_NOINLINE bool any_hits_of_group(const WideView& view, RayGroup& group, std::uint8_t* blocked) {
-  const auto at_leaf = [&](const LeafBlock<L>* blocks, std::uint32_t registers)
-                           HWY_ATTR { return any_in_leaf(blocks, registers, group); };
-  if (!walk_group<N, L>(view, group, at_leaf)) return false;
+  const auto at_leaf = [&](WideReference leaf, std::uint32_t registers)
+                           HWY_ATTR { return any_in_leaf<Store>(view, leaf, registers, group); };
+  if (!walk_group<Store>(view, group, at_leaf)) return false;
   for (std::size_t i = 0; i < group_size; ++i) {
     blocked[i] = (&group.t_limit.lanes[0][0])[i] < (&group.t_near.lanes[0][0])[i] ? 1 : 0;
   }

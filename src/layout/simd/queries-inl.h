@@ -77,7 +77,7 @@ struct Batch {
     for_each_run(
         view, rays,
         [&](RayGroup& group, std::size_t begin) {
-          return closest_hits_of_group<Store::children, Store::triangles>(view, group, hits.data() + begin);
+          return closest_hits_of_group<Store>(view, group, hits.data() + begin);
         },
         [&](std::size_t begin, std::size_t size) {
           InFlight<Steps>::closest(view, rays.subspan(begin, size), hits.subspan(begin, size));
@@ -87,7 +87,7 @@ struct Batch {
     for_each_run(
         view, rays,
         [&](RayGroup& group, std::size_t begin) {
-          return any_hits_of_group<Store::children, Store::triangles>(view, group, blocked.data() + begin);
+          return any_hits_of_group<Store>(view, group, blocked.data() + begin);
         },
         [&](std::size_t begin, std::size_t size) {
           InFlight<Steps>::any(view, rays.subspan(begin, size), blocked.subspan(begin, size));

@@ -89,14 +89,14 @@ HWY_INLINE void append(SlotList& from, SlotList& to) {
   from.size = 0;
 }
 
-/// Puts a ray in front of the root of a tree of nodes of N children.
-template <int N>
+/// Puts a ray in front of the root of a tree whose nodes have rows of so many bytes.
+template <std::uint32_t RowBytes>
 HWY_INLINE void start(const Slots& slots, Slot& slot, const WideView& view, const PreparedRay& ray, std::size_t index) {
   for (int axis = 0; axis < 3; ++axis) {
     slot.inverse[axis] = ray.inverse[axis];
     slot.near_offset[axis] = ray.near_offset[axis];
     slot.far_offset[axis] = ray.far_offset[axis];
-    slot.near_row[axis] = static_cast<std::uint32_t>(2 * axis + ray.negative[axis]) * (4 * N);
+    slot.near_row[axis] = static_cast<std::uint32_t>(2 * axis + ray.negative[axis]) * RowBytes;
   }
   slot.leaf = triangle_ray(ray);
   slot.t_near = ray.t_near + 0.0f;  // never -0: keys and limits are compared as integers

@@ -7,6 +7,7 @@
 #define BOXWOOD_LAYOUT_SIMD_STEPS16_INL_H
 #endif
 
+#include "layout/simd/open_node-inl.h"
 #include "layout/simd/slots-inl.h"
 #include "layout/simd/sort8-inl.h"
 #include "layout/simd/steps8-inl.h"
@@ -20,31 +21,11 @@ namespace HWY_NAMESPACE {
 template <class StoreType>
 struct Steps16 {
   using Store = StoreType;
-  using Node = WideNode<16>;
+  using Node = OpenNode<Store>;
   using Floats16 = hn::FixedTag<float, 16>;
   using Ints16 = hn::FixedTag<std::int32_t, 16>;
   using Words16 = hn::FixedTag<std::uint32_t, 16>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
-
-  struct NodeHits {
-    hn::Vec<Floats16> entry;
-    hn::Mask<Floats16> hit;
-  };
-
-  static HWY_INLINE NodeHits hit_node(const Node& place, const Slot& slot) {
-    const Floats16 d;
-    const auto* node = reinterpret_cast<const std::byte*>(&place);
-    const auto plane = [&](std::uint32_t row, int axis, float offset) {
-      return hn::MulSub(hn::Load(d, reinterpret_cast<const float*>(node + row)), hn::Set(d, slot.inverse[axis]),
-                        hn::Set(d, offset));
-    };
-    const std::uint32_t x = slot.near_row[0], y = slot.near_row[1], z = slot.near_row[2];
-    const auto entry = hn::Max(hn::Max(plane(x, 0, slot.near_offset[0]), plane(y, 1, slot.near_offset[1])),
-                               hn::Max(plane(z, 2, slot.near_offset[2]), hn::Set(d, slot.t_near)));
-    const auto exit = hn::Min(hn::Min(plane(x ^ 64, 0, slot.far_offset[0]), plane(y ^ 64, 1, slot.far_offset[1])),
-                              hn::Min(plane(z ^ 64, 2, slot.far_offset[2]), hn::Set(d, slot.t_limit)));
-    return {entry, hn::Le(entry, exit)};
-  }
 
   /// Keys are above 0, which marks lanes that hold none.
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return (std::bit_cast<std::int32_t>(t_limit) | 15) + 16; }
@@ -56,7 +37,7 @@ struct Steps16 {
   };
   static HWY_INLINE Met meet(const Node& node, const Slot& slot) {
     const Ints16 d;
-    const NodeHits hits = hit_node(node, slot);
+    const BoxHits<Floats16> hits = node.hit(Floats16(), 0, slot);
     const auto keys = hn::Add(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 16));
     return {hn::Compress(keys, hn::RebindMask(d, hits.hit)),
             static_cast<std::uint32_t>(std::popcount(bits_of(Floats16(), hits.hit)))};
@@ -64,8 +45,8 @@ struct Steps16 {
 
   static HWY_INLINE hn::Vec<Words16> children_of(const Node& node, hn::Vec<Ints16> keys) {
     const Words16 d;
-    const auto children = hn::Load(d, node.children);
-    return hn::TableLookupLanes(children, hn::IndicesFromVec(d, hn::And(hn::BitCast(d, keys), hn::Set(d, 15))));
+    return hn::TableLookupLanes(node.children(Floats16(), 0),
+                                hn::IndicesFromVec(d, hn::And(hn::BitCast(d, keys), hn::Set(d, 15))));
   }
 
   /// Takes the top after `count` children were pushed; nothing when none was.
@@ -95,9 +76,7 @@ struct Steps16 {
     const Ints16 d;
     const Ints8 half;
     const hn::Half<Words16> half_words;
-    typename Store::NodeBuffer buffer_a, buffer_b;
-    const Node& node_a = Store::node(view, a.next, buffer_a);
-    const Node& node_b = Store::node(view, b.next, buffer_b);
+    const Node node_a(view, a.next), node_b(view, b.next);
     const Met met_a = meet(node_a, a), met_b = meet(node_b, b);
     if (HWY_UNLIKELY(std::max(met_a.count, met_b.count) > 8)) {
       push_many(slots, node_a, met_a.keys, met_a.count, a);
@@ -121,13 +100,11 @@ struct Steps16 {
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
   static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
-    const Words16 d;
-    typename Store::NodeBuffer buffer;
-    const Node& node = Store::node(view, slot.next, buffer);
-    const NodeHits hits = hit_node(node, slot);
-    const auto children = hn::Load(d, node.children);
+    const Floats16 d;
+    const Node node(view, slot.next);
+    const auto hit = hn::RebindMask(Words16(), node.hit(d, 0, slot).hit);
     WideReference* references = slots.references(slot);
-    slot.top += compress_store<Words16>(children, hn::RebindMask(d, hits.hit), references + slot.top) - 1;
+    slot.top += compress_store<Words16>(node.children(d, 0), hit, references + slot.top) - 1;
     return slot.next = references[slot.top];
   }
 
@@ -153,14 +130,13 @@ struct Steps16 {
 
   /// Each half in order, and the nearest of both on top.
   static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
-    typename Store::NodeBuffer buffer;
-    const WideNode<16>& node = Store::node(view, slot.next, buffer);
-    const auto* place = reinterpret_cast<const std::byte*>(&node);
-    const auto low = EightChildren::hit_node<64>(place, slot), high = EightChildren::hit_node<64>(place + 32, slot);
+    const EightChildren::Floats8 d;
+    const OpenNode<Store> node(view, slot.next);
     std::int32_t* keys = slots.keys(slot) + slot.top;
     WideReference* references = slots.references(slot) + slot.top;
-    const std::uint32_t first = EightChildren::push(low, node.children, keys, references);
-    const std::uint32_t second = EightChildren::push(high, node.children + 8, keys + first, references + first);
+    const std::uint32_t first = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), keys, references);
+    const std::uint32_t second =
+        EightChildren::push(node.hit(d, 8, slot), node.children(d, 8), keys + first, references + first);
     // The last of the first half and the last of all change places when the former is nearer. Where there is none, both
     // are the same.
     const int last = static_cast<int>(first + second) - 1, end_of_first = static_cast<int>(first) - 1;
@@ -172,14 +148,12 @@ struct Steps16 {
   }
 
   static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
-    const Words8 d;
-    typename Store::NodeBuffer buffer;
-    const WideNode<16>& node = Store::node(view, slot.next, buffer);
-    const auto* place = reinterpret_cast<const std::byte*>(&node);
-    const auto low = EightChildren::hit_node<64>(place, slot), high = EightChildren::hit_node<64>(place + 32, slot);
+    const EightChildren::Floats8 d;
+    const OpenNode<Store> node(view, slot.next);
+    const auto met = [&](int begin) { return hn::RebindMask(Words8(), node.hit(d, begin, slot).hit); };
     WideReference* references = slots.references(slot);
-    slot.top += compress_store(hn::Load(d, node.children), hn::RebindMask(d, low.hit), references + slot.top);
-    slot.top += compress_store(hn::Load(d, node.children + 8), hn::RebindMask(d, high.hit), references + slot.top) - 1;
+    slot.top += compress_store(node.children(d, 0), met(0), references + slot.top);
+    slot.top += compress_store(node.children(d, 8), met(8), references + slot.top) - 1;
     return slot.next = references[slot.top];
   }
 

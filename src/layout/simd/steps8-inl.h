@@ -6,9 +6,9 @@
 #define BOXWOOD_LAYOUT_SIMD_STEPS8_INL_H
 #endif
 
+#include "layout/simd/open_node-inl.h"
 #include "layout/simd/slots-inl.h"
 #include "layout/simd/sort8-inl.h"
-#include "layout/simd/store-inl.h"
 #include "layout/simd/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,32 +21,11 @@ struct EightChildren {
   using Floats8 = hn::FixedTag<float, 8>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
 
-  struct NodeHits {
-    hn::Vec<Floats8> entry;
-    hn::Mask<Floats8> hit;
-  };
-
-  /// Eight children; the planes of one kind lie `Row` bytes apart.
-  template <std::uint32_t Row = 32>
-  static HWY_INLINE NodeHits hit_node(const std::byte* node, const Slot& slot) {
-    const Floats8 d;
-    const auto plane = [&](std::uint32_t row, int axis, float offset) {
-      return hn::MulSub(hn::Load(d, reinterpret_cast<const float*>(node + row)), hn::Set(d, slot.inverse[axis]),
-                        hn::Set(d, offset));
-    };
-    const std::uint32_t x = slot.near_row[0], y = slot.near_row[1], z = slot.near_row[2];
-    const auto entry = hn::Max(hn::Max(plane(x, 0, slot.near_offset[0]), plane(y, 1, slot.near_offset[1])),
-                               hn::Max(plane(z, 2, slot.near_offset[2]), hn::Set(d, slot.t_near)));
-    const auto exit = hn::Min(hn::Min(plane(x ^ Row, 0, slot.far_offset[0]), plane(y ^ Row, 1, slot.far_offset[1])),
-                              hn::Min(plane(z ^ Row, 2, slot.far_offset[2]), hn::Set(d, slot.t_limit)));
-    return {entry, hn::Le(entry, exit)};
-  }
-
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return std::bit_cast<std::int32_t>(t_limit) | 7; }
 
   /// Stores eight children from the top of the stack on, those met first, the nearest of them last. Returns how many
   /// were met.
-  static HWY_INLINE std::uint32_t push(const NodeHits& hits, const WideReference* children_met, std::int32_t* keys,
+  static HWY_INLINE std::uint32_t push(const BoxHits<Floats8>& hits, hn::Vec<Words8> children, std::int32_t* keys,
                                        WideReference* references) {
     const Ints8 di;
     const Words8 dw;
@@ -54,7 +33,6 @@ struct EightChildren {
     const auto key = hn::Or(hn::And(hn::BitCast(di, hits.entry), hn::Set(di, ~7)), hn::Iota(di, 0));
     const auto miss = hn::Set(di, std::numeric_limits<std::int32_t>::min());
     const auto sorted = sort8_descending(di, hn::IfThenElse(hn::RebindMask(di, hits.hit), key, miss));
-    const auto children = hn::Load(dw, children_met);
     const auto lanes = hn::IndicesFromVec(dw, hn::BitCast(dw, hn::And(sorted, hn::Set(di, 7))));
     hn::StoreU(sorted, di, keys);
     hn::StoreU(hn::TableLookupLanes(children, lanes), dw, references);
@@ -78,23 +56,21 @@ struct Steps8 {
   /// Pushes all children met, nearest on top, and takes the top; nothing when none was met. One step of some 80
   /// instructions: cut into three shorter passes it was a tenth slower.
   static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
-    typename Store::NodeBuffer buffer;
-    const WideNode<8>& node = Store::node(view, slot.next, buffer);
+    const EightChildren::Floats8 d;
+    const OpenNode<Store> node(view, slot.next);
     WideReference* references = slots.references(slot);
-    const auto hits = EightChildren::hit_node(reinterpret_cast<const std::byte*>(&node), slot);
-    const std::uint32_t count =
-        EightChildren::push(hits, node.children, slots.keys(slot) + slot.top, references + slot.top);
+    const std::uint32_t count = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0),
+                                                    slots.keys(slot) + slot.top, references + slot.top);
     return EightChildren::take(references, count, slot);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
   static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
-    const Words8 d;
-    typename Store::NodeBuffer buffer;
-    const WideNode<8>& node = Store::node(view, slot.next, buffer);
-    const auto hits = EightChildren::hit_node(reinterpret_cast<const std::byte*>(&node), slot);
+    const EightChildren::Floats8 d;
+    const OpenNode<Store> node(view, slot.next);
+    const auto hits = node.hit(d, 0, slot);
     WideReference* references = slots.references(slot);
-    slot.top += compress_store(hn::Load(d, node.children), hn::RebindMask(d, hits.hit), references + slot.top) - 1;
+    slot.top += compress_store(node.children(d, 0), hn::RebindMask(Words8(), hits.hit), references + slot.top) - 1;
     return slot.next = references[slot.top];
   }
 

@@ -18,11 +18,16 @@ namespace HWY_NAMESPACE {
 template <int N, int L>
 struct PlainStore {
   static constexpr int children = N, triangles = L;
+  static constexpr std::uint32_t row_bytes = 4 * N;  // of the planes of one side of one axis
   struct NodeBuffer {};
   struct BlockBuffer {};
 
   static HWY_INLINE const WideNode<N>& node(const WideView& view, WideReference reference, NodeBuffer&) {
     return *reinterpret_cast<const WideNode<N>*>(view.base + std::size_t{reference} * 16);
+  }
+  /// One plane of the child in `lane`; rows as in WideNode.
+  static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
+    return reinterpret_cast<const WideNode<N>*>(view.base + std::size_t{reference} * 16)->planes[row][lane];
   }
   /// Block `number` of the run that begins at `reference`.
   static HWY_INLINE const LeafBlock<L>& block(const WideView& view, WideReference reference, std::size_t number,
