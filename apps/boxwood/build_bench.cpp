@@ -22,6 +22,7 @@ std::vector<NamedContestant> contestants_of(const Scene& scene, const std::vecto
 
 Estimate ns_per_triangle(const std::vector<double>& seconds, double triangles) {
   std::vector<double> samples;
+  samples.reserve(seconds.size());
   for (const double value : seconds) samples.push_back(value * 1e9 / triangles);
   return estimate_median(samples);
 }
@@ -56,6 +57,7 @@ BuildBench bench_builds(const BuildBenchSettings& settings, ProgressSink& progre
     for (auto& peer : embree_builders(scene, settings.threads)) contestants.push_back(std::move(peer));
   }
   std::vector<Contestant> runs;
+  runs.reserve(contestants.size());
   for (const NamedContestant& contestant : contestants) runs.push_back(contestant.run);
   const auto seconds = interleave(runs, {.repeats = settings.repeats, .warmup = 1}, &progress);
 
