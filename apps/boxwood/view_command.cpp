@@ -45,6 +45,7 @@ int run_view(const ViewerOptions& options) {
                {"--integrator", options.integrator, "--size", options.size, "--folder", options.folder, "--threads",
                 std::to_string(options.threads), "--samples", std::to_string(options.samples)});
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execv(viewer.c_str(), arguments.data());

@@ -48,6 +48,7 @@ const Camera& find_camera(const Scene& scene, const ViewOptions& view) {
 
 std::vector<Recipe> parse_recipes(const std::vector<std::string>& texts) {
   std::vector<Recipe> recipes;
+  recipes.reserve(texts.size());
   for (const std::string& text : texts) recipes.push_back(Recipe::parse(text));
   return recipes;
 }
