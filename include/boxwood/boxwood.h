@@ -1,6 +1,7 @@
 #pragma once
 #include "boxwood/box.h"           // IWYU pragma: export
 #include "boxwood/counters.h"      // IWYU pragma: export
+#include "boxwood/custom.h"        // IWYU pragma: export
 #include "boxwood/distance.h"      // IWYU pragma: export
 #include "boxwood/error.h"         // IWYU pragma: export
 #include "boxwood/expected_use.h"  // IWYU pragma: export

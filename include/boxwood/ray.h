@@ -20,12 +20,16 @@ static_assert(sizeof(Ray) == 32);
 
 inline constexpr std::uint32_t no_primitive = 0xffffffffu;
 
+/// Of a ray and of an instance: all 32 bits of its mask. A ray passes through instances whose mask has no bit in common
+/// with its own.
+inline constexpr std::uint32_t every_bit = 0xffffffffu;
+
 /// Closest hit of a ray. Among hits at the same t the smallest (instance, primitive) wins, in every structure.
 struct Hit {
   float t = std::numeric_limits<float>::infinity();  ///< distance in units of the direction; infinite on a miss
   float u = 0, v = 0;                                ///< barycentric weights of the triangle's second and third vertex
   std::uint32_t primitive = no_primitive;            ///< triangle number within its mesh; no_primitive on a miss
-  std::uint32_t instance = no_primitive;             ///< index into Scene::instances; no_primitive on a miss
+  std::uint32_t instance = no_primitive;  ///< index into Scene::instances, or as place() counts; no_primitive on a miss
 
   constexpr bool valid() const { return primitive != no_primitive; }
   friend constexpr bool operator==(const Hit&, const Hit&) = default;

@@ -8,6 +8,7 @@
 
 #include "boxwood/box.h"
 #include "boxwood/error.h"
+#include "boxwood/ray.h"
 #include "boxwood/transform.h"
 #include "boxwood/vec3.h"
 
@@ -33,6 +34,7 @@ struct Mesh {
 struct Instance {
   std::uint32_t mesh = 0;  ///< index into Scene::meshes
   Transform object_to_world;
+  std::uint32_t mask = every_bit;  ///< rays without any of these bits in theirs pass through it
 };
 
 /// How a surface sends out and scatters light. Diffuse, specular, reflection and transmission are shares of the light
@@ -118,7 +120,8 @@ struct Scene {
   std::uint64_t placed_triangles() const;
   /// World bounds of every usable triangle; empty for an empty scene. O(n).
   Box bounds() const;
-  /// True when one mesh is placed once by the identity, so that one structure over its triangles is the whole scene.
+  /// True when one mesh is placed once by the identity, for all rays, so that one structure over its triangles is the
+  /// whole scene.
   bool single_level() const;
   /// True when no triangle is placed.
   bool empty() const { return placed_triangles() == 0; }
@@ -134,7 +137,8 @@ bool is_usable(const Mesh& mesh, std::uint32_t triangle);
 /// place and the cure; UsageError for a bad generator.
 Scene load(std::string_view path_or_generator);
 
-/// The same scene with every instance written out as world-space triangles of one mesh. O(placed triangles).
+/// The same scene with every instance written out as world-space triangles of one mesh. Masks are lost. O(placed
+/// triangles).
 Scene flatten(const Scene& scene);
 
 }  // namespace boxwood

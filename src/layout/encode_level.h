@@ -15,8 +15,8 @@ std::shared_ptr<const Layout> encode_level(Tree tree, const Contents& contents, 
                                            const Encode& encode, const Choose& choose) {
   const Box bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   const auto finish = [&](auto leaves) -> std::shared_ptr<const Layout> {
+    const Reach extent = extent_of(leaves, tree.references, bounds, contents);
     tree.references = {};
-    const Reach extent = extent_of(leaves, bounds, contents);
     using Nodes = decltype(encode(std::move(tree)));
     using Leaves = decltype(leaves);
     Level<Nodes, Leaves> level{encode(std::move(tree)), std::move(leaves), extent, options.cull};

@@ -16,7 +16,7 @@ RayCounters& operator+=(RayCounters& sum, const RayCounters& more) {
   return sum;
 }
 
-void Layout::closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const {
+void Layout::closest_below(const Ray& ray, Descent descent, Hit& best, RayCounters* counters) const {
   Ray shortened = ray;
   shortened.t_far = std::min(ray.t_far, best.t);
   Hit hit;
@@ -28,20 +28,29 @@ void Layout::closest_below(const Ray& ray, std::uint32_t instance, Hit& best, Ra
     hit = closest_hit(shortened);
   }
   if (!hit.valid()) return;
-  hit.instance = instance;
+  hit.instance += descent.first_instance;
   const bool wins = hit.t != best.t                 ? hit.t < best.t
                     : hit.instance != best.instance ? hit.instance < best.instance
                                                     : hit.primitive < best.primitive;
   if (wins) best = hit;
 }
 
-bool Layout::any_below(const Ray& ray, RayCounters* counters) const {
+bool Layout::any_below(const Ray& ray, std::uint32_t, RayCounters* counters) const {
   if (!counters) return any_hit(ray);
   RayCounters spent;
   std::uint8_t blocked = 0;
   any_hits_counted({&ray, 1}, {&blocked, 1}, {&spent, 1});
   *counters += spent;
   return blocked != 0;
+}
+
+void Layout::closest_hits_masked(std::span<const Ray> rays, std::span<const std::uint32_t>, std::span<Hit> hits) const {
+  closest_hits(rays, hits);
+}
+
+void Layout::any_hits_masked(std::span<const Ray> rays, std::span<const std::uint32_t>,
+                             std::span<std::uint8_t> blocked) const {
+  any_hits(rays, blocked);
 }
 
 void add_facts(std::vector<LayoutFact>& sums, const std::vector<LayoutFact>& facts) {
@@ -60,13 +69,12 @@ std::optional<SavedLevel> Layout::saved() const { return {}; }
 
 bool Layout::refit(const Tree&, const Mesh&) { return false; }
 
-void Layout::offer_below(const Ray&, std::uint32_t, HitSink&) const { refuse_to_offer(); }
+void Layout::offer_hits(const Ray&, Descent, HitSink&) const { refuse_to_offer(); }
 
 void Layout::refuse_to_offer() {
   throw UsageError(
-      "a peer finds closest and any hits only; all hits, the first k hits and filters need a layout of our own, such "
-      "as "
-      "the preset 'default'");
+      "a peer finds closest and any hits only; all hits, the first k hits, filters and masks need a layout of our own, "
+      "such as the preset 'default'");
 }
 
 }  // namespace boxwood

@@ -9,7 +9,9 @@
 #include "boxwood/counters.h"
 #include "boxwood/layout_fact.h"
 #include "boxwood/ray.h"
+#include "layout/descent.h"
 #include "trace/hit_sink.h"
+#include "trace/reach.h"
 
 namespace boxwood {
 
@@ -33,16 +35,21 @@ class Layout {
   virtual void any_hits_counted(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                                 std::span<RayCounters> counters) const = 0;
 
-  /// As a bottom level: replaces `best` when this level, placed as `instance`, has a hit that wins over it. `ray` is in
-  /// this level's space. Adds to `counters` unless null. These defaults work through the queries above; kernels of our
-  /// own override them, to start from the cut-off that `best` is.
-  virtual void closest_below(const Ray& ray, std::uint32_t instance, Hit& best, RayCounters* counters) const;
-  virtual bool any_below(const Ray& ray, RayCounters* counters) const;
+  /// As a level below others, or of a ray with a mask: replaces `best` when this level has a hit that wins over it.
+  /// `ray` is in this level's space. Adds to `counters` unless null. These defaults work through the queries above;
+  /// kernels of our own override them, to start from the cut-off that `best` is.
+  virtual void closest_below(const Ray& ray, Descent descent, Hit& best, RayCounters* counters) const;
+  virtual bool any_below(const Ray& ray, std::uint32_t mask, RayCounters* counters) const;
+  /// Batches of rays with masks, one for each. These defaults are for levels without instances.
+  virtual void closest_hits_masked(std::span<const Ray> rays, std::span<const std::uint32_t> masks,
+                                   std::span<Hit> hits) const;
+  virtual void any_hits_masked(std::span<const Ray> rays, std::span<const std::uint32_t> masks,
+                               std::span<std::uint8_t> blocked) const;
 
-  /// Brings every hit of the ray to `sink`, as hits of `instance`. The default is a peer's, which cannot.
-  virtual void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const;
-  /// The same of a structure of its own, whose leaves may know their instances.
-  virtual void offer_hits(const Ray& ray, HitSink& sink) const { offer_below(ray, 0, sink); }
+  /// Brings every hit of the ray to `sink`. The default is a peer's, which cannot.
+  virtual void offer_hits(const Ray& ray, Descent descent, HitSink& sink) const;
+  /// What a level above must add to its own error bound; see instance_error(). The default: triangles and no more.
+  virtual Reach reach() const { return {}; }
   /// Throws the UsageError that says so.
   [[noreturn]] static void refuse_to_offer();
 

@@ -47,12 +47,17 @@ struct Counting {
   RayCounters& sum;
 };
 
+/// What a ray brings along into what is placed there.
+HWY_INLINE Descent into(const InstanceLeaf& placed, Descent descent) {
+  return {descent.first_instance + placed.instance, descent.mask};
+}
+
 /// The closest-hit query. `cutoff` is lowered only when culling, which costs nothing where no hit is found.
 template <class CountingPolicy>
 struct ClosestVisit {
   const Ray& ray;
   const PreparedRay& prepared;
-  std::uint32_t instance;
+  Descent descent;
   Hit& best;
   float cutoff;
   bool cull;
@@ -75,12 +80,13 @@ struct ClosestVisit {
   /// One entry of a leaf.
   HWY_INLINE bool entry(const LeafTriangle& triangle) {
     counting.primitive();
-    if (closest_of(triangle, prepared, instance, best)) lower_cutoff();
+    if (closest_of(triangle, prepared, descent.first_instance, best)) lower_cutoff();
     return false;
   }
   HWY_INLINE bool entry(const InstanceLeaf& placed) {
-    const std::uint32_t number = instance == own_instances ? placed.instance : instance;
-    placed.bottom->closest_below(object_ray(placed.world_to_object, ray), number, best, counting.below());
+    if ((placed.mask & descent.mask) == 0) return false;
+    placed.bottom->closest_below(object_ray(placed.world_to_object, ray), into(placed, descent), best,
+                                 counting.below());
     lower_cutoff();
     return false;
   }
@@ -91,6 +97,7 @@ template <class CountingPolicy>
 struct AnyVisit {
   const Ray& ray;
   const PreparedRay& prepared;
+  std::uint32_t mask;
   float cutoff;
   CountingPolicy counting;
 
@@ -114,7 +121,8 @@ struct AnyVisit {
     return blocks(triangle, prepared);
   }
   HWY_INLINE bool entry(const InstanceLeaf& placed) {
-    return placed.bottom->any_below(object_ray(placed.world_to_object, ray), counting.below());
+    if ((placed.mask & mask) == 0) return false;
+    return placed.bottom->any_below(object_ray(placed.world_to_object, ray), mask, counting.below());
   }
 };
 
@@ -122,7 +130,7 @@ struct AnyVisit {
 struct OfferVisit {
   const Ray& ray;
   const PreparedRay& prepared;
-  std::uint32_t instance;
+  Descent descent;
   HitSink& sink;
   float cutoff;
   NoCounting counting;
@@ -140,13 +148,13 @@ struct OfferVisit {
     TriangleHit hit;
     if (!hit_triangle(triangle.a, triangle.b, triangle.c, prepared, hit)) return false;
     if (!(hit.t >= ray.t_near && hit.t <= ray.t_far)) return false;
-    sink.offer({hit.t, hit.v / hit.determinant, hit.w / hit.determinant, triangle.primitive, instance});
+    sink.offer({hit.t, hit.v / hit.determinant, hit.w / hit.determinant, triangle.primitive, descent.first_instance});
     lower_cutoff();
     return false;
   }
   HWY_INLINE bool entry(const InstanceLeaf& placed) {
-    const std::uint32_t number = instance == own_instances ? placed.instance : instance;
-    placed.bottom->offer_below(object_ray(placed.world_to_object, ray), number, sink);
+    if ((placed.mask & descent.mask) == 0) return false;
+    placed.bottom->offer_hits(object_ray(placed.world_to_object, ray), into(placed, descent), sink);
     lower_cutoff();
     return false;
   }

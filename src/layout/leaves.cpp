@@ -54,25 +54,29 @@ InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const 
   leaves.instances.reserve(references.size());
   for (const std::uint32_t number : references) {
     const Instance& instance = contents.instances[number];
-    leaves.instances.push_back({inverse_of(instance, number), leaves.bottoms[instance.mesh].get(), number});
+    leaves.instances.push_back({inverse_of(instance, number), leaves.bottoms[instance.mesh].get(),
+                                contents.numbers.empty() ? number : contents.numbers[number], instance.mask});
   }
   return leaves;
 }
 
-Reach extent_of(const TriangleLeaves&, const Box& bounds, const Contents&) {
+Reach extent_of(const TriangleLeaves&, std::span<const std::uint32_t>, const Box& bounds, const Contents&) {
   if (bounds.empty()) return {};
   const Vec3 largest = max(max(bounds.lower, bounds.upper), max(-bounds.lower, -bounds.upper));
   return {std::max({largest.x, largest.y, largest.z}), 1};
 }
 
-Reach extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents) {
+Reach extent_of(const InstanceLeaves& leaves, std::span<const std::uint32_t> references, const Box& bounds,
+                const Contents& contents) {
   InstanceError error;
-  for (const InstanceLeaf& leaf : leaves.instances) {
+  for (std::size_t i = 0; i < leaves.instances.size(); ++i) {
+    const InstanceLeaf& leaf = leaves.instances[i];
     // What the world's box is to the instance bounds whatever of it lies there.
     const Box object_box = leaf.world_to_object.box(bounds);
-    error.grow(instance_error(contents.instances[leaf.instance].object_to_world, leaf.world_to_object, object_box));
+    error.grow(instance_error(contents.instances[references[i]].object_to_world, leaf.world_to_object, object_box,
+                              leaf.bottom->reach()));
   }
-  const float reach = extent_of(TriangleLeaves{}, bounds, contents).reach;
+  const float reach = extent_of(TriangleLeaves{}, references, bounds, contents).reach;
   return {reach + error.offset / error.gain, error.gain};
 }
 

@@ -14,28 +14,20 @@
 
 namespace boxwood {
 
-/// The `instance` of a walk whose leaves know their instances themselves.
-inline constexpr std::uint32_t own_instances = no_primitive;
-
-/// What prepare() must know of everything below a root.
-struct Reach {
-  float reach = 0;
-  float gain = 1;
-};
-
 /// Leaf content of a bottom level: triangles in leaf order.
 struct TriangleLeaves {
   std::vector<LeafTriangle> triangles;
 
   std::size_t bytes() const { return triangles.size() * sizeof(LeafTriangle); }
-  static constexpr std::uint32_t first_instance = 0;  ///< of a query that starts here
 };
 
-/// One instance in a leaf. 64 bytes, one cache line: the map into its space, its structure, its number.
+/// One instance in a leaf. 64 bytes, one cache line: the map into its space, its structure, the number of the first
+/// instance in there (its own, where that is triangles), its mask.
 struct InstanceLeaf {
   Transform world_to_object;
   const Layout* bottom = nullptr;
   std::uint32_t instance = 0;
+  std::uint32_t mask = every_bit;
 };
 static_assert(sizeof(InstanceLeaf) == 64);
 
@@ -45,7 +37,6 @@ struct InstanceLeaves {
   std::vector<std::shared_ptr<const Layout>> bottoms;  ///< keeps what `instances` point to
 
   std::size_t bytes() const { return instances.size() * sizeof(InstanceLeaf); }
-  static constexpr std::uint32_t first_instance = own_instances;
 };
 
 /// Copies the triangles that `references` name. Parallel; O(references).
@@ -55,8 +46,11 @@ void move_triangles(TriangleLeaves& leaves, const Mesh& mesh);
 /// Throws Error naming an instance whose transform has no inverse. O(references).
 InstanceLeaves instance_leaves(std::span<const std::uint32_t> references, const Contents& contents);
 
-/// The error bound that rays need below a root with box `bounds`. For a level above, what its leaves round is added.
-Reach extent_of(const TriangleLeaves& leaves, const Box& bounds, const Contents& contents);
-Reach extent_of(const InstanceLeaves& leaves, const Box& bounds, const Contents& contents);
+/// The error bound that rays need below a root with box `bounds`. For a level above, what its leaves
+/// round is added; `references` are those they were made from.
+Reach extent_of(const TriangleLeaves& leaves, std::span<const std::uint32_t> references, const Box& bounds,
+                const Contents& contents);
+Reach extent_of(const InstanceLeaves& leaves, std::span<const std::uint32_t> references, const Box& bounds,
+                const Contents& contents);
 
 }  // namespace boxwood

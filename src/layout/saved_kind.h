@@ -21,6 +21,7 @@ struct SavedKindEntry {
   SavedKind kind;
   std::string (*damage_in)(const SavedLevel& level);
   std::shared_ptr<const Layout> (*restore)(const SavedLevel& level, const TraceOptions& trace);
+  Box (*bounds)(const SavedLevel& level);
 };
 
 SavedKindEntry saved_binary();

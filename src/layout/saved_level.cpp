@@ -37,8 +37,7 @@ std::string find_bad_leaf(const SavedLevel& level) {
   };
   if (level.facts.instances) {
     for (const SavedInstance& instance : elements_of<SavedInstance>(level.leaves, "instances")) {
-      if (is_bad(instance.instance) || instance.bottom >= level.bottoms.size() || instance.zero[0] != 0 ||
-          instance.zero[1] != 0) {
+      if (is_bad(instance.instance) || instance.bottom >= level.bottoms.size() || instance.zero != 0) {
         return fmt::format("entry {} of its leaves names an instance or a structure that it does not have", number - 1);
       }
     }
@@ -70,6 +69,8 @@ std::shared_ptr<const Layout> layout_of(const SavedLevel& level, const TraceOpti
   return entry_of(level.facts.kind).restore(level, trace);
 }
 
+Box bounds_of(const SavedLevel& level) { return entry_of(level.facts.kind).bounds(level); }
+
 void save_leaves(const TriangleLeaves& leaves, SavedLevel& out) {
   for (const LeafTriangle& triangle : leaves.triangles) {
     out.facts.primitives = std::max(out.facts.primitives, triangle.primitive + 1);
@@ -85,7 +86,7 @@ void save_leaves(const InstanceLeaves& leaves, SavedLevel& out) {
   for (const auto& bottom : leaves.bottoms) numbers.emplace(bottom.get(), static_cast<std::uint32_t>(numbers.size()));
   for (const InstanceLeaf& leaf : leaves.instances) {
     out.facts.primitives = std::max(out.facts.primitives, leaf.instance + 1);
-    saved->push_back({leaf.world_to_object, numbers.at(leaf.bottom), leaf.instance});
+    saved->push_back({leaf.world_to_object, numbers.at(leaf.bottom), leaf.instance, ~leaf.mask});
   }
   out.leaves = std::as_bytes(std::span(*saved));
   out.owner = saved;
@@ -109,7 +110,8 @@ InstanceLeaves instance_leaves(const SavedLevel& level) {
     if (saved.bottom >= leaves.bottoms.size()) {
       throw Error(fmt::format("instance {} places a structure that it does not have", saved.instance));
     }
-    leaves.instances.push_back({saved.world_to_object, leaves.bottoms[saved.bottom].get(), saved.instance});
+    leaves.instances.push_back(
+        {saved.world_to_object, leaves.bottoms[saved.bottom].get(), saved.instance, ~saved.hidden_from});
   }
   return leaves;
 }

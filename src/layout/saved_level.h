@@ -46,7 +46,8 @@ struct SavedInstance {
   Transform world_to_object;
   std::uint32_t bottom = 0;  ///< which of the levels below
   std::uint32_t instance = 0;
-  std::uint32_t zero[2] = {};
+  std::uint32_t hidden_from = 0;  ///< bits that its mask lacks
+  std::uint32_t zero = 0;
 };
 static_assert(sizeof(SavedInstance) == 64);
 
@@ -66,6 +67,9 @@ void save_leaves(const InstanceLeaves& leaves, SavedLevel& out);
 /// lies within the arrays, no node is reached twice, and no walk needs more room than there is. Says nothing on whether
 /// boxes hold what they should. O(n).
 std::string find_damage(const SavedLevel& level, const TraceOptions& trace);
+
+/// The box of a level that layout_of() takes; empty when nothing is in it.
+Box bounds_of(const SavedLevel& level);
 
 /// The layout that `level` was. SIMD kernels read its nodes where they are, others get copies. Sizes and facts are
 /// checked, nodes are not: see find_damage(). Throws Error saying what is wrong, as half a sentence.

@@ -127,13 +127,12 @@ struct KernelsOf {
   }
 
   template <class CountingPolicy>
-  static void closest(const LevelType& level, const Ray& ray, std::uint32_t instance, Hit& best,
-                      RayCounters* counters) {
+  static void closest(const LevelType& level, const Ray& ray, Descent descent, Hit& best, RayCounters* counters) {
     const PreparedRay prepared = prepare(ray, level.extent.reach, level.extent.gain);
     if (!prepared.valid) return;
     ClosestVisit<CountingPolicy> visit{ray,
                                        prepared,
-                                       instance,
+                                       descent,
                                        best,
                                        first_cutoff(level, best.t < ray.t_far ? best.t : ray.t_far),
                                        level.cull,
@@ -142,31 +141,32 @@ struct KernelsOf {
   }
 
   template <class CountingPolicy>
-  static bool any(const LevelType& level, const Ray& ray, RayCounters* counters) {
+  static bool any(const LevelType& level, const Ray& ray, std::uint32_t mask, RayCounters* counters) {
     const PreparedRay prepared = prepare(ray, level.extent.reach, level.extent.gain);
     if (!prepared.valid) return false;
-    AnyVisit<CountingPolicy> visit{ray, prepared, first_cutoff(level, ray.t_far), CountingPolicy(counters)};
+    AnyVisit<CountingPolicy> visit{ray, prepared, mask, first_cutoff(level, ray.t_far), CountingPolicy(counters)};
     return walk<Tester, order, mode>(level, prepared, visit);
   }
 
   /// Whatever the order of the walk, hits come out the same: one kernel serves all.
-  static void offer(const LevelType& level, const Ray& ray, std::uint32_t instance, HitSink& sink) {
+  static void offer(const LevelType& level, const Ray& ray, Descent descent, HitSink& sink) {
     const PreparedRay prepared = prepare(ray, level.extent.reach, level.extent.gain);
     if (!prepared.valid) return;
     const float cutoff = sink.cutoff() < ray.t_far ? sink.cutoff() : ray.t_far;
-    OfferVisit visit{ray, prepared, instance, sink, cutoff, NoCounting(nullptr)};
+    OfferVisit visit{ray, prepared, descent, sink, cutoff, NoCounting(nullptr)};
     walk<Tester, order, mode>(level, prepared, visit);
   }
 
   static void closest_batch(const LevelType& level, std::span<const Ray> rays, std::span<Hit> hits) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       hits[i] = {};
-      closest<NoCounting>(level, rays[i], Leaves::first_instance, hits[i], nullptr);
+      closest<NoCounting>(level, rays[i], {}, hits[i], nullptr);
     }
   }
 
   static void any_batch(const LevelType& level, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<NoCounting>(level, rays[i], nullptr) ? 1 : 0;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      blocked[i] = any<NoCounting>(level, rays[i], every_bit, nullptr) ? 1 : 0;
   }
 
   static Kernels<Nodes, Leaves> table() {

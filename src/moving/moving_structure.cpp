@@ -10,6 +10,7 @@
 #include "boxwood/moving.h"
 #include "moving/moving_mesh.h"
 #include "recipe/stage.h"
+#include "structure/instance_paths.h"
 #include "structure/mesh_geometry.h"
 #include "structure/threads.h"
 
@@ -98,6 +99,7 @@ std::shared_ptr<const Layout> MovingStructure::State::place(BuildReport& report)
   const Pipeline pipeline(recipe);
   Tree tree = pipeline.tree({instance_references(boxes), nullptr, nullptr});
   report.nodes += tree.nodes.size();
+  report.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   auto layout = pipeline.encode(std::move(tree), contents);
   report.bytes += layout->bytes();
   add_facts(report.facts, layout->facts());
@@ -137,9 +139,12 @@ void MovingStructure::State::update(UpdateReport& report) {
     add_facts(built.facts, mesh.layout()->facts());
   }
   const bool single = scene.single_level() && !removed[0];
+  if (single) built.bounds = meshes[0]->bounds();
   std::shared_ptr<const Layout> layout = single ? meshes[0]->layout() : place(built);
   report.placed_anew = !single;
-  current.emplace(std::move(layout), std::move(built), recipe);
+  std::shared_ptr<const InstancePaths> paths;
+  if (!single) paths = std::make_shared<const InstancePaths>(static_cast<std::uint32_t>(scene.instances.size()));
+  current.emplace(std::move(layout), std::move(built), recipe, std::move(paths));
 }
 
 MovingStructure::MovingStructure(Scene scene, const Recipe& recipe, const MotionPolicy& policy,

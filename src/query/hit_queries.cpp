@@ -45,22 +45,24 @@ class FirstHits final : public HitSink {
 
 }  // namespace
 
-void append_all_hits(const Layout& layout, const Ray& ray, std::vector<Hit>& hits) {
+void append_all_hits(const Layout& layout, const Ray& ray, std::uint32_t mask, std::vector<Hit>& hits) {
+  if (mask == 0) return;
   const auto old_size = static_cast<std::ptrdiff_t>(hits.size());
   AllHits sink(hits);
-  layout.offer_hits(ray, sink);
+  layout.offer_hits(ray, {0, mask}, sink);
   std::sort(hits.begin() + old_size, hits.end(), comes_before);
   hits.erase(std::unique(hits.begin() + old_size, hits.end()), hits.end());
 }
 
-std::size_t first_hits(const Layout& layout, const Ray& ray, std::span<Hit> hits) {
-  if (hits.empty()) return 0;
+std::size_t first_hits(const Layout& layout, const Ray& ray, std::uint32_t mask, std::span<Hit> hits) {
+  if (hits.empty() || mask == 0) return 0;
   FirstHits sink(hits, nullptr);
-  layout.offer_hits(ray, sink);
+  layout.offer_hits(ray, {0, mask}, sink);
   return sink.size();
 }
 
-Hit first_accepted(const Layout& layout, const Ray& ray, std::size_t number, const Hit& first, HitFilter accept) {
+Hit first_accepted(const Layout& layout, const Ray& ray, std::uint32_t mask, std::size_t number, const Hit& first,
+                   HitFilter accept) {
   if (!first.valid() || accept(number, first)) return first;
   std::array<Hit, 32> memory;
   Hit last = first;
@@ -69,7 +71,7 @@ Hit first_accepted(const Layout& layout, const Ray& ray, std::size_t number, con
     Ray rest = ray;
     rest.t_near = last.t;
     FirstHits sink({memory.data(), most}, &last);
-    layout.offer_hits(rest, sink);
+    layout.offer_hits(rest, {0, mask}, sink);
     for (std::size_t i = 0; i < sink.size(); ++i) {
       if (accept(number, memory[i])) return memory[i];
     }

@@ -7,7 +7,7 @@
 namespace boxwood {
 
 /// What can be asked of a structure. Distances are asked of the scene, whatever the recipe (boxwood/distance.h).
-enum class Capability : std::uint8_t { closest_and_any_hit, all_hits, first_hits, filters };
+enum class Capability : std::uint8_t { closest_and_any_hit, all_hits, first_hits, filters, masks, placing, custom };
 
 struct CapabilityEntry {
   Capability capability;

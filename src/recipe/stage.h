@@ -21,8 +21,9 @@ enum class StageKind { builder, refinement, layout, trace, peer };
 /// level has instances, whose own structures are `bottoms[i]` (shared by all instances of a mesh).
 struct Contents {
   const Mesh* mesh = nullptr;
-  std::span<const Instance> instances;
+  std::span<const Instance> instances;  ///< of which `mesh` is an index into `bottoms`
   std::span<const std::shared_ptr<const Layout>> bottoms;
+  std::span<const std::uint32_t> numbers;  ///< of the first instance in each; empty: each is one, by its place
 };
 
 using BuilderFunction = std::function<Tree(const std::any& options, BuildInput input)>;
@@ -72,6 +73,8 @@ struct Stage {
   std::function<bool(const std::any& options)> needs_use;
   /// Of a builder: its trees tell the cells of an octree (Tree::cells). Of a layout: it encodes those.
   bool cells = false;
+  /// Of a layout: custom primitives can take its place, in wide nodes (layout/custom).
+  bool custom = false;
 };
 
 /// A stage with the options a recipe gave it.

@@ -11,6 +11,7 @@
 #include "layout/saved_level.h"
 #include "recipe/stage.h"
 #include "saved/section_file.h"
+#include "structure/instance_paths.h"
 
 namespace boxwood {
 namespace {
@@ -24,6 +25,7 @@ static_assert(sizeof(SavedReport) == 48);
 
 /// All levels, the one that answers queries last; none when one of them cannot be saved.
 std::vector<SavedLevel> levels_of(const Structure& structure) {
+  if (structure.paths() && !structure.paths()->first_numbers().empty()) return {};  // placed: of many recipes
   std::optional<SavedLevel> top = structure.layout()->saved();
   if (!top) return {};
   std::vector<SavedLevel> levels;
@@ -61,8 +63,15 @@ TraceOptions trace_of(const Recipe& recipe) {
   return {};
 }
 
-std::shared_ptr<const Layout> read_level(SectionFile& file, const TraceOptions& trace, bool verify,
-                                         const std::vector<std::shared_ptr<const Layout>>& bottoms) {
+/// A level with the layout that it is.
+struct ReadLevel {
+  SavedFacts facts;
+  Box bounds;
+  std::shared_ptr<const Layout> layout;
+};
+
+ReadLevel read_level(SectionFile& file, const TraceOptions& trace, bool verify,
+                     const std::vector<std::shared_ptr<const Layout>>& bottoms) {
   SavedLevel level;
   level.facts = read_object<SavedFacts>(file, SectionKind::facts);
   level.nodes = file.next(SectionKind::nodes);
@@ -73,7 +82,8 @@ std::shared_ptr<const Layout> read_level(SectionFile& file, const TraceOptions& 
     if (const std::string damage = find_damage(level, trace); !damage.empty()) file.fail(damage);
   }
   try {
-    return layout_of(level, trace);
+    auto layout = layout_of(level, trace);
+    return {level.facts, bounds_of(level), std::move(layout)};
   } catch (const Error& error) {
     file.fail(error.what());
   }
@@ -88,8 +98,10 @@ bool can_save(const Structure& structure) { return !levels_of(structure).empty()
 void save(const Structure& structure, const std::filesystem::path& file) {
   const std::vector<SavedLevel> levels = levels_of(structure);
   if (levels.empty()) {
-    throw UsageError(fmt::format("a structure built by '{}' cannot be saved; files hold the layouts binary and wide(k)",
-                                 structure.recipe().text()));
+    throw UsageError(
+        fmt::format("a structure built by '{}' cannot be saved; files hold the layouts binary and wide(k), of "
+                    "scenes",
+                    structure.recipe().text()));
   }
   const std::string recipe = structure.recipe().text();
   const BuildReport& built = structure.report();
@@ -113,15 +125,20 @@ Structure load_structure(const std::filesystem::path& path, const LoadOptions& o
   if (!std::isfinite(saved.build_ms) || !std::isfinite(saved.sah_cost) || saved.levels == 0) {
     file.fail("its report makes no sense");
   }
-  BuildReport report{saved.build_ms, 0, saved.sah_cost, saved.nodes, saved.primitives, saved.left_out, {}};
+  BuildReport report{saved.build_ms, 0, saved.sah_cost, saved.nodes, saved.primitives, saved.left_out, {}, {}};
   std::vector<std::shared_ptr<const Layout>> levels;
+  std::shared_ptr<const InstancePaths> paths;
   for (std::uint64_t i = 0; i < saved.levels; ++i) {
-    levels.push_back(read_level(file, trace_of(recipe), verify, levels));
+    ReadLevel level = read_level(file, trace_of(recipe), verify, levels);
+    if (paths) file.fail("it has a level above one of instances");
+    if (level.facts.instances) paths = std::make_shared<const InstancePaths>(level.facts.primitives);
+    report.bounds = level.bounds;
+    levels.push_back(std::move(level.layout));
     report.bytes += levels.back()->bytes();
     add_facts(report.facts, levels.back()->facts());
   }
   if (!file.at_end()) file.fail("it has more sections than levels");
-  return {levels.back(), std::move(report), recipe};
+  return {levels.back(), std::move(report), recipe, std::move(paths)};
 }
 
 void check_fits(const Structure& structure, const Scene& scene) {

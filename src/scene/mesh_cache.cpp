@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise the number when importers or this layout change what a file becomes. The order of its bytes marks endianness.
-constexpr std::uint64_t magic = 0x0003'6568'6361'6378u;
+constexpr std::uint64_t magic = 0x0004'6568'6361'6378u;
 
 /// Order-sensitive checksum of blocks, eight bytes at a time.
 class Checksum {

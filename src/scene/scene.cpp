@@ -78,7 +78,8 @@ Box Scene::bounds() const {
 }
 
 bool Scene::single_level() const {
-  return meshes.size() == 1 && instances.size() == 1 && instances[0].object_to_world == Transform{};
+  return meshes.size() == 1 && instances.size() == 1 && instances[0].object_to_world == Transform{} &&
+         instances[0].mask == every_bit;
 }
 
 Scene flatten(const Scene& scene) {

@@ -10,6 +10,7 @@
 
 #include "layout/layout.h"
 #include "recipe/stage.h"
+#include "structure/instance_paths.h"
 #include "structure/mesh_geometry.h"
 #include "structure/object_use.h"
 #include "structure/pipeline.h"
@@ -34,6 +35,7 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   Tree tree = pipeline.tree(std::move(input));
   report.build_ms += milliseconds_since(begin_tree);
   report.nodes += tree.nodes.size();
+  report.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   if (contents.mesh) report.sah_cost += sah_cost(tree);
   const auto begin_layout = Clock::now();
   auto layout = pipeline.encode(std::move(tree), contents);
@@ -90,12 +92,21 @@ const ExpectedUse* checked_use(const Scene& scene, const Recipe& recipe, const B
 }
 
 std::shared_ptr<const Layout> build_peer(const StageCall& peer, const Scene& scene, BuildReport& report) {
+  if (std::ranges::any_of(scene.instances, [](const Instance& i) { return i.mask != every_bit; })) {
+    throw UsageError("a peer knows no masks of instances; use a layout of our own, such as the preset 'default'");
+  }
   const auto begin = Clock::now();
   auto layout = peer.stage->trace_peer(peer.options, scene);
   report.build_ms = milliseconds_since(begin);
   report.bytes = layout->bytes();
   report.primitives = scene.unique_triangles();
+  report.bounds = scene.bounds();
   return layout;
+}
+
+std::shared_ptr<const InstancePaths> paths_of(const Scene& scene) {
+  if (scene.single_level()) return {};
+  return std::make_shared<const InstancePaths>(static_cast<std::uint32_t>(scene.instances.size()));
 }
 
 }  // namespace
@@ -123,7 +134,7 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
       layout = build_two_levels(scene, Pipeline(recipe), use, report);
     }
   });
-  return {std::move(layout), std::move(report), recipe};
+  return {std::move(layout), std::move(report), recipe, paths_of(scene)};
 }
 
 Structure build(const Scene& scene, std::string_view recipe, const BuildOptions& options) {

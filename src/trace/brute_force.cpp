@@ -12,11 +12,12 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-Hit closest_of_all(const BruteForce::Data& data, const Ray& ray) {
+Hit closest_of_all(const BruteForce::Data& data, const Ray& ray, std::uint32_t mask) {
   Hit best;
   if (!within_limits(ray)) return best;
   for (std::uint32_t i = 0; i < data.instances.size(); ++i) {
     const BruteForce::Placed& placed = data.instances[i];
+    if ((placed.mask & mask) == 0) continue;
     const PreparedRay prepared = prepare(placed.identity ? ray : object_ray(placed.world_to_object, ray), 0);
     if (!prepared.valid) continue;
     for (std::uint32_t t = 0; t < placed.count; ++t) closest_of(data.triangles[placed.first + t], prepared, i, best);
@@ -24,9 +25,10 @@ Hit closest_of_all(const BruteForce::Data& data, const Ray& ray) {
   return best;
 }
 
-bool any_of_all(const BruteForce::Data& data, const Ray& ray) {
+bool any_of_all(const BruteForce::Data& data, const Ray& ray, std::uint32_t mask) {
   if (!within_limits(ray)) return false;
   for (const BruteForce::Placed& placed : data.instances) {
+    if ((placed.mask & mask) == 0) continue;
     const PreparedRay prepared = prepare(placed.identity ? ray : object_ray(placed.world_to_object, ray), 0);
     if (!prepared.valid) continue;
     for (std::uint32_t t = 0; t < placed.count; ++t) {
@@ -36,10 +38,11 @@ bool any_of_all(const BruteForce::Data& data, const Ray& ray) {
   return false;
 }
 
-void append_all(const BruteForce::Data& data, const Ray& ray, std::vector<Hit>& hits) {
+void append_all(const BruteForce::Data& data, const Ray& ray, std::uint32_t mask, std::vector<Hit>& hits) {
   if (!within_limits(ray)) return;
   for (std::uint32_t i = 0; i < data.instances.size(); ++i) {
     const BruteForce::Placed& placed = data.instances[i];
+    if ((placed.mask & mask) == 0) continue;
     const PreparedRay prepared = prepare(placed.identity ? ray : object_ray(placed.world_to_object, ray), 0);
     if (!prepared.valid) continue;
     for (std::uint32_t t = 0; t < placed.count; ++t) {
@@ -93,18 +96,23 @@ BruteForce::BruteForce(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     Placed placed = meshes[instance.mesh];
     placed.identity = identity;
+    placed.mask = instance.mask;
     if (!identity && placed.count > 0) placed.world_to_object = instance.object_to_world.inverse();
     data_.instances.push_back(placed);
   }
 }
 
-Hit BruteForce::closest_hit(const Ray& ray) const { return HWY_DYNAMIC_DISPATCH(closest_of_all)(data_, ray); }
+Hit BruteForce::closest_hit(const Ray& ray, std::uint32_t mask) const {
+  return HWY_DYNAMIC_DISPATCH(closest_of_all)(data_, ray, mask);
+}
 
-bool BruteForce::any_hit(const Ray& ray) const { return HWY_DYNAMIC_DISPATCH(any_of_all)(data_, ray); }
+bool BruteForce::any_hit(const Ray& ray, std::uint32_t mask) const {
+  return HWY_DYNAMIC_DISPATCH(any_of_all)(data_, ray, mask);
+}
 
-std::vector<Hit> BruteForce::all_hits(const Ray& ray) const {
+std::vector<Hit> BruteForce::all_hits(const Ray& ray, std::uint32_t mask) const {
   std::vector<Hit> hits;
-  HWY_DYNAMIC_DISPATCH(append_all)(data_, ray, hits);
+  HWY_DYNAMIC_DISPATCH(append_all)(data_, ray, mask, hits);
   std::ranges::sort(hits, comes_before);
   return hits;
 }

@@ -17,10 +17,10 @@ class BruteForce {
   /// Copies what it needs. Throws Error when an instance's transform has no inverse. O(n).
   explicit BruteForce(const Scene& scene);
 
-  Hit closest_hit(const Ray& ray) const;
-  bool any_hit(const Ray& ray) const;
+  Hit closest_hit(const Ray& ray, std::uint32_t mask = every_bit) const;
+  bool any_hit(const Ray& ray, std::uint32_t mask = every_bit) const;
   /// Every hit, in the order of comes_before().
-  std::vector<Hit> all_hits(const Ray& ray) const;
+  std::vector<Hit> all_hits(const Ray& ray, std::uint32_t mask = every_bit) const;
   /// One answer per ray. Throws UsageError when the spans differ in length.
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
@@ -29,6 +29,7 @@ class BruteForce {
   struct Placed {
     std::uint32_t first = 0, count = 0;  ///< range of `triangles`
     Transform world_to_object;
+    std::uint32_t mask = every_bit;
     bool identity = false;  ///< world_to_object changes nothing
   };
   struct Data {

@@ -23,31 +23,37 @@ double reach_of(const Box& box) {
 
 }  // namespace
 
-InstanceError instance_error(const Transform& object_to_world, const Transform& world_to_object,
-                             const Box& object_box) {
+InstanceError instance_error(const Transform& object_to_world, const Transform& world_to_object, const Box& object_box,
+                             Reach below) {
   // The box test's bound is 2^-19 of its magnitude; a residual must be scaled up to count in full.
   constexpr double per_unit_of_bound = 0x1p19;
-  const double reach = reach_of(object_box);
+  const double reach = std::max(reach_of(object_box), static_cast<double>(below.reach));
+  // An error in the object's space is relative to the largest coordinate there, whichever that is.
+  double object_gain = 0, object_offset = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double row = 0;
+    for (std::size_t j = 0; j < 3; ++j) row += std::fabs(entry(world_to_object, k, j));
+    object_gain = std::max(object_gain, row);
+    object_offset = std::max(object_offset, std::fabs(entry(world_to_object, k, 3)) + 2 * reach);
+  }
   double gain = 1, offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     double row_gain = 0, row_offset = std::fabs(entry(object_to_world, i, 3));
     for (std::size_t k = 0; k < 3; ++k) {
-      row_offset += std::fabs(entry(object_to_world, i, k)) * (std::fabs(entry(world_to_object, k, 3)) + 2 * reach);
+      row_gain += std::fabs(entry(object_to_world, i, k)) * object_gain;
+      row_offset += std::fabs(entry(object_to_world, i, k)) * object_offset;
     }
     for (std::size_t j = 0; j < 4; ++j) {
-      double product = j == 3 ? entry(object_to_world, i, 3) : i == j ? -1.0 : 0.0, size = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double term = entry(object_to_world, i, k) * entry(world_to_object, k, j);
-        product += term;
-        size += std::fabs(term);
-      }
-      (j == 3 ? row_offset : row_gain) += (j == 3 ? 0 : size) + std::fabs(product) * per_unit_of_bound;
+      double residual = j == 3 ? entry(object_to_world, i, 3) : i == j ? -1.0 : 0.0;
+      for (std::size_t k = 0; k < 3; ++k) residual += entry(object_to_world, i, k) * entry(world_to_object, k, j);
+      (j == 3 ? row_offset : row_gain) += std::fabs(residual) * per_unit_of_bound;
     }
     gain = std::max(gain, row_gain);
     offset = std::max(offset, row_offset);
   }
-  // Twice: once for the ray's own rounding on the way in, once for the triangle test behind it.
-  return {static_cast<float>(2 * gain), static_cast<float>(2 * offset)};
+  // Once for the ray's own rounding on the way in, and once, or what is placed says how often, for what is behind it.
+  const double times = 1 + static_cast<double>(below.gain);
+  return {static_cast<float>(times * gain), static_cast<float>(times * offset)};
 }
 
 }  // namespace boxwood

@@ -1,6 +1,7 @@
 #pragma once
 #include "boxwood/box.h"
 #include "boxwood/transform.h"
+#include "trace/reach.h"
 
 namespace boxwood {
 
@@ -17,7 +18,9 @@ struct InstanceError {
 };
 
 /// The bound for one instance whose object-space triangles lie in `object_box`; `world_to_object` is the inverse as
-/// rounded, and its residual is part of the bound. In norms of absolute row sums.
-InstanceError instance_error(const Transform& object_to_world, const Transform& world_to_object, const Box& object_box);
+/// rounded, and its residual is part of the bound. `below`: of what is placed, more than {0, 1} where that maps rays as
+/// well. In norms of absolute row sums.
+InstanceError instance_error(const Transform& object_to_world, const Transform& world_to_object, const Box& object_box,
+                             Reach below = {});
 
 }  // namespace boxwood

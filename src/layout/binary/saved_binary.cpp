@@ -51,8 +51,13 @@ std::shared_ptr<const Layout> restore_binary(const SavedLevel& level, const Trac
                           [](const auto& l, const TraceOptions& t) { return kernels_of(l, t); });
 }
 
+Box binary_bounds(const SavedLevel& level) {
+  const auto nodes = elements_of<BinaryNode>(level.nodes, "nodes");
+  return nodes.empty() ? Box{} : nodes[0].bounds;
+}
+
 }  // namespace
 
-SavedKindEntry saved_binary() { return {SavedKind::binary, binary_damage, restore_binary}; }
+SavedKindEntry saved_binary() { return {SavedKind::binary, binary_damage, restore_binary, binary_bounds}; }
 
 }  // namespace boxwood

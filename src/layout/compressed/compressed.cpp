@@ -45,13 +45,15 @@ std::shared_ptr<const Layout> encode(const CompressedOptions& options, Tree tree
 }  // namespace
 
 Stage compressed_stage() {
-  return layout_stage<CompressedOptions>(
+  Stage stage = layout_stage<CompressedOptions>(
       "compressed", "wide nodes of 8-bit boxes over the caller's mesh, which must outlive the structure",
       "Ylitie et al. 2017; Benthin et al. 2018",
       OptionsOf<CompressedOptions>()
           .integer("k", &CompressedOptions::k, 2, 16, "most children per node; kept in nodes of 8 or 16")
           .positional(),
       encode, [](const CompressedOptions& options) { return options.k; });
+  stage.custom = true;
+  return stage;
 }
 
 }  // namespace boxwood

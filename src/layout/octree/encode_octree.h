@@ -24,7 +24,7 @@ std::shared_ptr<const Layout> encode_octree(const Tree& tree, const Contents& co
   nodes.head.trace = trace;
   const Box bounds = tree.empty() ? Box{} : octree_cell(octree_root).box(tree.cells.grid);
   const auto finish = [&](auto leaves) -> std::shared_ptr<const Layout> {
-    const Reach extent = extent_of(leaves, bounds, contents);
+    const Reach extent = extent_of(leaves, references.primitives, bounds, contents);
     Level<decltype(nodes), decltype(leaves)> level{std::move(nodes), std::move(leaves), extent, trace.cull};
     const auto chosen = kernels(level);
     return std::make_shared<KernelLayout<decltype(nodes), decltype(leaves)>>(std::move(level), chosen);

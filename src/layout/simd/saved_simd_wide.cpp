@@ -148,8 +148,26 @@ std::shared_ptr<const Layout> restore_simd_wide(const SavedLevel& level, const T
   });
 }
 
+/// Empty lanes of the root hold empty boxes.
+Box simd_wide_bounds(const SavedLevel& level) {
+  return with_shape(level.facts, [&]<int N, int L>() {
+    const std::size_t offset = wide_offset(level.facts.root_reference);
+    Box bounds;
+    if (offset + sizeof(WideNode<N>) > level.nodes.size()) return bounds;
+    WideNode<N> root;
+    std::memcpy(&root, level.nodes.data() + offset, sizeof root);
+    for (int lane = 0; lane < N; ++lane) {
+      bounds.grow(Box{{root.planes[0][lane], root.planes[2][lane], root.planes[4][lane]},
+                      {root.planes[1][lane], root.planes[3][lane], root.planes[5][lane]}});
+    }
+    return bounds;
+  });
+}
+
 }  // namespace
 
-SavedKindEntry saved_simd_wide() { return {SavedKind::simd_wide, simd_wide_damage, restore_simd_wide}; }
+SavedKindEntry saved_simd_wide() {
+  return {SavedKind::simd_wide, simd_wide_damage, restore_simd_wide, simd_wide_bounds};
+}
 
 }  // namespace boxwood

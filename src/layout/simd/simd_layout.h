@@ -37,8 +37,8 @@ class SimdLayout final : public Layout {
       blocked[i] = kernels_.any_hit_counted(memory_.view, rays[i], counters[i]) ? 1 : 0;
     }
   }
-  void offer_below(const Ray& ray, std::uint32_t instance, HitSink& sink) const override {
-    kernels_.offer_hits(memory_.view, ray, instance, sink);
+  void offer_hits(const Ray& ray, Descent descent, HitSink& sink) const override {
+    kernels_.offer_hits(memory_.view, ray, descent.first_instance, sink);
   }
   bool refit(const Tree& tree, const Mesh& mesh) override {
     if constexpr (requires { memory_.refit(tree, mesh); }) {

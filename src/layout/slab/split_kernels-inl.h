@@ -30,7 +30,7 @@ struct PacketBatches {
         },
         [&](std::size_t i, RayCounters* sum) {
           hits[i] = {};
-          Single::template closest<CountingPolicy>(level, rays[i], TriangleLeaves::first_instance, hits[i], sum);
+          Single::template closest<CountingPolicy>(level, rays[i], {}, hits[i], sum);
         });
   }
 
@@ -43,7 +43,7 @@ struct PacketBatches {
           return any_of_packet<Nodes, N, CountingPolicy>(level, packet_order, &rays[i], &blocked[i], sum);
         },
         [&](std::size_t i, RayCounters* sum) {
-          blocked[i] = Single::template any<CountingPolicy>(level, rays[i], sum) ? 1 : 0;
+          blocked[i] = Single::template any<CountingPolicy>(level, rays[i], every_bit, sum) ? 1 : 0;
         });
   }
 

@@ -10,9 +10,8 @@
 #include <bit>
 #include <cstring>
 
-#include "layout/simd/lanes-inl.h"
+#include "layout/wide/leaf_walk-inl.h"
 #include "trace/object_ray.h"
-#include "trace/prepared_ray-inl.h"
 #include "trace/triangle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,89 +27,34 @@ struct InstanceVisit {
   std::uint32_t ray, leaf;  ///< numbers under way, and among the leaves
 };
 
-/// One ray on its way through the level of instances.
+/// One ray on its way through the level of instances, entry by entry.
 template <int K>
 class InstanceWalk {
-  using D = Floats<K>;
   using LevelType = Level<WideNodes, InstanceLeaves>;
 
  public:
   /// False when it meets nothing.
   HWY_INLINE bool start(const LevelType& level, const Ray& ray) {
-    top_ = 0;
-    leaf_count_ = 0;
-    prepared_ = prepare(ray, level.extent.reach, level.extent.gain);
-    float entry;
-    if (!prepared_.valid || !hit_box(level.nodes.root_box, prepared_, ray.t_far, entry)) return false;
-    push_link(level.nodes.root, entry, 0);
-    return true;
+    left_.count = 0;
+    NoCounting none(nullptr);
+    return walk_.start(level.nodes, level.extent, ray, none);
   }
 
-  enum class Step : std::uint8_t { visit, done, overflow };
-
   /// Goes on to the next instance that the ray may hit at or before `limit`.
-  HWY_INLINE Step next(const LevelType& level, float limit, std::uint32_t& leaf) {
-    while (leaf_count_ == 0) {
-      do {
-        if (top_ == 0) return Step::done;
-        --top_;
-      } while (!(open_[top_].entry <= limit));
-      const Link link = open_[top_].link;
-      if (link.leaf) {
-        leaf_first_ = link.first;
-        leaf_count_ = link.count;
-      } else if (!open_node(level, link, limit)) {
-        return Step::overflow;
-      }
+  HWY_INLINE LeafStep next(const LevelType& level, float limit, std::uint32_t& leaf) {
+    NoCounting none(nullptr);
+    while (left_.count == 0) {
+      const LeafStep step = walk_.next(level.nodes, limit, left_, none);
+      if (step != LeafStep::visit) return step;
     }
-    leaf = leaf_first_++;
-    --leaf_count_;
-    return Step::visit;
+    leaf = left_.first++;
+    --left_.count;
+    return LeafStep::visit;
   }
 
  private:
-  struct Open {
-    Link link;
-    float entry;
-  };
-
-  HWY_INLINE void push_link(const Link& link, float entry, std::uint32_t bottom) {
-    std::uint32_t place = top_++;
-    for (; place != bottom && open_[place - 1].entry < entry; --place) open_[place] = open_[place - 1];
-    open_[place] = {link, entry};
-  }
-
-  /// Puts the children that are met on the stack, the nearest on top.
-  HWY_INLINE bool open_node(const LevelType& level, const Link& link, float limit) {
-    if (HWY_UNLIKELY(top_ + link.count > open_ends)) return false;
-    const D d;
-    const float* node = level.nodes.memory.data() + std::size_t{link.first} * (8 * K);
-    const std::uint32_t bottom = top_;
-    alignas(64) float entries[K];
-    for (int begin = 0; begin < K; begin += lanes_of<D>) {
-      auto entry = hn::Set(d, prepared_.t_near), exit = hn::Set(d, limit);
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto inverse = hn::Set(d, prepared_.inverse[axis]);
-        const int near = axis + 3 * prepared_.negative[axis], far = axis + 3 * (1 - prepared_.negative[axis]);
-        const auto near_plane = hn::LoadU(d, node + near * K + begin), far_plane = hn::LoadU(d, node + far * K + begin);
-        entry = hn::Max(hn::MulSub(near_plane, inverse, hn::Set(d, prepared_.near_offset[axis])), entry);
-        exit = hn::Min(hn::MulSub(far_plane, inverse, hn::Set(d, prepared_.far_offset[axis])), exit);
-      }
-      hn::Store(entry, d, entries + begin);
-      std::uint32_t bits = bits_of(d, hn::Le(entry, exit)) << begin;
-      for (bits &= (1u << link.count) - 1; bits != 0; bits &= bits - 1) {
-        const int child = std::countr_zero(bits);
-        Link to;
-        std::memcpy(static_cast<void*>(&to), node + 6 * K + 2 * child, sizeof to);
-        push_link(to, entries[child], bottom);
-      }
-    }
-    return true;
-  }
-
-  PreparedRay prepared_;
-  std::uint32_t top_, leaf_first_, leaf_count_;
-  Open open_[open_ends];
+  Link left_;
+  LeafWalk<K, open_ends> walk_;
 };
 
 /// Sorts visits so that those of one structure lie together, and within it those of one instance, each in the order of
@@ -172,7 +116,6 @@ class VisitOrder {
 template <int K, class Query>
 class BatchThroughInstances {
   using LevelType = Level<WideNodes, InstanceLeaves>;
-  using Step = typename InstanceWalk<K>::Step;
 
  public:
   BatchThroughInstances(const LevelType& level, Query& query) : level_(level), query_(query) {}
@@ -207,11 +150,14 @@ class BatchThroughInstances {
       const std::uint32_t i = active_[a];
       std::uint32_t leaf;
       if (query_.finished(i)) continue;
-      const Step step = walks_[i].next(level_, query_.limit(i), leaf);
-      if (step == Step::visit) {
+      LeafStep step;
+      do {
+        step = walks_[i].next(level_, query_.limit(i), leaf);
+      } while (step == LeafStep::visit && (level_.leaves.instances[leaf].mask & query_.mask(i)) == 0);
+      if (step == LeafStep::visit) {
         active_[visits] = i;
         visits_[visits++] = {i, leaf};
-      } else if (step == Step::overflow) {
+      } else if (step == LeafStep::overflow) {
         query_.alone(i);
       }
     }
@@ -228,91 +174,122 @@ class BatchThroughInstances {
   InstanceWalk<K> walks_[rays_under_way];
 };
 
-class ClosestThroughInstances {
+/// What both queries keep of the rays under way.
+class RaysUnderWay {
  public:
-  ClosestThroughInstances(const Kernels<WideNodes, InstanceLeaves>& single,
-                          const Level<WideNodes, InstanceLeaves>& level, std::span<Hit> hits)
-      : single_(single), level_(level), all_hits_(hits) {}
+  RaysUnderWay(const Level<WideNodes, InstanceLeaves>& level, std::span<const std::uint32_t> masks)
+      : single_(wide_instance_kernels({})), level_(level), all_masks_(masks) {}
+
+  HWY_INLINE std::uint32_t mask(std::uint32_t i) const { return masks_ ? masks_[i] : every_bit; }
+
+ protected:
+  void begin_rays(std::span<const Ray> rays, std::size_t first) {
+    rays_ = rays.data();
+    masks_ = all_masks_.empty() ? nullptr : all_masks_.data() + first;
+  }
+  HWY_INLINE Ray object_ray_of(const InstanceLeaves& leaves, const InstanceVisit& visit) const {
+    return object_ray(leaves.instances[visit.leaf].world_to_object, rays_[visit.ray]);
+  }
+  std::span<const std::uint32_t> object_masks(std::span<const InstanceVisit> together) {
+    for (std::size_t v = 0; v < together.size(); ++v) object_masks_[v] = masks_[together[v].ray];
+    return {object_masks_, together.size()};
+  }
+
+  const Kernels<WideNodes, InstanceLeaves> single_;
+  const Level<WideNodes, InstanceLeaves>& level_;
+  std::span<const std::uint32_t> all_masks_;
+  const Ray* rays_ = nullptr;
+  const std::uint32_t* masks_ = nullptr;  ///< null: every bit
+  Ray object_rays_[rays_under_way];
+
+ private:
+  std::uint32_t object_masks_[rays_under_way];
+};
+
+class ClosestThroughInstances : public RaysUnderWay {
+ public:
+  ClosestThroughInstances(const Level<WideNodes, InstanceLeaves>& level, std::span<const std::uint32_t> masks,
+                          std::span<Hit> hits)
+      : RaysUnderWay(level, masks), all_hits_(hits) {}
 
   void begin(std::span<const Ray> rays, std::size_t first) {
-    rays_ = rays.data();
+    begin_rays(rays, first);
     hits_ = all_hits_.data() + first;
     std::fill_n(hits_, rays.size(), Hit{});
   }
   static bool finished(std::uint32_t) { return false; }
   HWY_INLINE float limit(std::uint32_t i) const { return hits_[i].t < rays_[i].t_far ? hits_[i].t : rays_[i].t_far; }
-  void alone(std::uint32_t i) { single_.closest(level_, rays_[i], InstanceLeaves::first_instance, hits_[i], nullptr); }
+  void alone(std::uint32_t i) { single_.closest(level_, rays_[i], {0, mask(i)}, hits_[i], nullptr); }
 
   void enter(const InstanceLeaves& leaves, const Layout& bottom, std::span<const InstanceVisit> together) {
     if (together.size() < least_together) {
       for (const InstanceVisit& visit : together) {
-        const InstanceLeaf& leaf = leaves.instances[visit.leaf];
-        bottom.closest_below(object_ray(leaf.world_to_object, rays_[visit.ray]), leaf.instance, hits_[visit.ray],
-                             nullptr);
+        const Descent descent{leaves.instances[visit.leaf].instance, mask(visit.ray)};
+        bottom.closest_below(object_ray_of(leaves, visit), descent, hits_[visit.ray], nullptr);
       }
       return;
     }
     for (std::size_t v = 0; v < together.size(); ++v) {
-      Ray ray = object_ray(leaves.instances[together[v].leaf].world_to_object, rays_[together[v].ray]);
-      ray.t_far = limit(together[v].ray);
-      object_rays_[v] = ray;
+      object_rays_[v] = object_ray_of(leaves, together[v]);
+      object_rays_[v].t_far = limit(together[v].ray);
     }
-    bottom.closest_hits({object_rays_, together.size()}, {object_hits_, together.size()});
+    const std::span<const Ray> rays{object_rays_, together.size()};
+    if (masks_) {
+      bottom.closest_hits_masked(rays, object_masks(together), {object_hits_, together.size()});
+    } else {
+      bottom.closest_hits(rays, {object_hits_, together.size()});
+    }
     for (std::size_t v = 0; v < together.size(); ++v) {
       Hit hit = object_hits_[v];
       if (!hit.valid()) continue;
-      hit.instance = leaves.instances[together[v].leaf].instance;
+      hit.instance += leaves.instances[together[v].leaf].instance;
       Hit& best = hits_[together[v].ray];
       if (wins(hit.t, hit.instance, hit.primitive, best)) best = hit;
     }
   }
 
  private:
-  const Kernels<WideNodes, InstanceLeaves>& single_;
-  const Level<WideNodes, InstanceLeaves>& level_;
   std::span<Hit> all_hits_;
-  const Ray* rays_ = nullptr;
   Hit* hits_ = nullptr;
-  Ray object_rays_[rays_under_way];
   Hit object_hits_[rays_under_way];
 };
 
-class AnyThroughInstances {
+class AnyThroughInstances : public RaysUnderWay {
  public:
-  AnyThroughInstances(const Kernels<WideNodes, InstanceLeaves>& single, const Level<WideNodes, InstanceLeaves>& level,
+  AnyThroughInstances(const Level<WideNodes, InstanceLeaves>& level, std::span<const std::uint32_t> masks,
                       std::span<std::uint8_t> blocked)
-      : single_(single), level_(level), all_blocked_(blocked) {}
+      : RaysUnderWay(level, masks), all_blocked_(blocked) {}
 
   void begin(std::span<const Ray> rays, std::size_t first) {
-    rays_ = rays.data();
+    begin_rays(rays, first);
     blocked_ = all_blocked_.data() + first;
     std::fill_n(blocked_, rays.size(), std::uint8_t{0});
   }
   HWY_INLINE bool finished(std::uint32_t i) const { return blocked_[i] != 0; }
   HWY_INLINE float limit(std::uint32_t i) const { return rays_[i].t_far; }
-  void alone(std::uint32_t i) { blocked_[i] = single_.any(level_, rays_[i], nullptr) ? 1 : 0; }
+  void alone(std::uint32_t i) { blocked_[i] = single_.any(level_, rays_[i], mask(i), nullptr) ? 1 : 0; }
 
   void enter(const InstanceLeaves& leaves, const Layout& bottom, std::span<const InstanceVisit> together) {
-    for (std::size_t v = 0; v < together.size(); ++v) {
-      object_rays_[v] = object_ray(leaves.instances[together[v].leaf].world_to_object, rays_[together[v].ray]);
-    }
+    for (std::size_t v = 0; v < together.size(); ++v) object_rays_[v] = object_ray_of(leaves, together[v]);
     if (together.size() < least_together) {
       for (std::size_t v = 0; v < together.size(); ++v) {
-        blocked_[together[v].ray] = bottom.any_below(object_rays_[v], nullptr) ? 1 : 0;
+        const std::uint32_t ray = together[v].ray;
+        blocked_[ray] = bottom.any_below(object_rays_[v], mask(ray), nullptr) ? 1 : 0;
       }
       return;
     }
-    bottom.any_hits({object_rays_, together.size()}, {object_blocked_, together.size()});
+    const std::span<const Ray> rays{object_rays_, together.size()};
+    if (masks_) {
+      bottom.any_hits_masked(rays, object_masks(together), {object_blocked_, together.size()});
+    } else {
+      bottom.any_hits(rays, {object_blocked_, together.size()});
+    }
     for (std::size_t v = 0; v < together.size(); ++v) blocked_[together[v].ray] = object_blocked_[v];
   }
 
  private:
-  const Kernels<WideNodes, InstanceLeaves>& single_;
-  const Level<WideNodes, InstanceLeaves>& level_;
   std::span<std::uint8_t> all_blocked_;
-  const Ray* rays_ = nullptr;
   std::uint8_t* blocked_ = nullptr;
-  Ray object_rays_[rays_under_way];
   std::uint8_t object_blocked_[rays_under_way];
 };
 
@@ -320,28 +297,48 @@ template <int K>
 struct BatchOf {
   using LevelType = Level<WideNodes, InstanceLeaves>;
 
-  static void closest(const LevelType& level, std::span<const Ray> rays, std::span<Hit> hits) {
-    const Kernels<WideNodes, InstanceLeaves> single = wide_instance_kernels({});
-    if (rays.size() < least_together || level.nodes.empty()) return single.closest_batch(level, rays, hits);
-    ClosestThroughInstances query(single, level, hits);
+  static void closest_masked(const LevelType& level, std::span<const Ray> rays, std::span<const std::uint32_t> masks,
+                             std::span<Hit> hits) {
+    if (rays.size() < least_together || level.nodes.empty()) {
+      const Kernels<WideNodes, InstanceLeaves> single = wide_instance_kernels({});
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = {};
+        single.closest(level, rays[i], {0, masks.empty() ? every_bit : masks[i]}, hits[i], nullptr);
+      }
+      return;
+    }
+    ClosestThroughInstances query(level, masks, hits);
     BatchThroughInstances<K, ClosestThroughInstances>(level, query).run(rays);
   }
-  static void any(const LevelType& level, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
-    const Kernels<WideNodes, InstanceLeaves> single = wide_instance_kernels({});
-    if (rays.size() < least_together || level.nodes.empty()) return single.any_batch(level, rays, blocked);
-    AnyThroughInstances query(single, level, blocked);
+  static void any_masked(const LevelType& level, std::span<const Ray> rays, std::span<const std::uint32_t> masks,
+                         std::span<std::uint8_t> blocked) {
+    if (rays.size() < least_together || level.nodes.empty()) {
+      const Kernels<WideNodes, InstanceLeaves> single = wide_instance_kernels({});
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        blocked[i] = single.any(level, rays[i], masks.empty() ? every_bit : masks[i], nullptr) ? 1 : 0;
+      }
+      return;
+    }
+    AnyThroughInstances query(level, masks, blocked);
     BatchThroughInstances<K, AnyThroughInstances>(level, query).run(rays);
   }
+  static void closest(const LevelType& level, std::span<const Ray> rays, std::span<Hit> hits) {
+    closest_masked(level, rays, {}, hits);
+  }
+  static void any(const LevelType& level, std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+    any_masked(level, rays, {}, blocked);
+  }
+  static InstanceBatch table() { return {closest, any, closest_masked, any_masked}; }
 };
 
 InstanceBatch instance_batch_of(std::uint32_t k) {
   switch (k) {
     case 4:
-      return {BatchOf<4>::closest, BatchOf<4>::any};
+      return BatchOf<4>::table();
     case 8:
-      return {BatchOf<8>::closest, BatchOf<8>::any};
+      return BatchOf<8>::table();
     case 16:
-      return {BatchOf<16>::closest, BatchOf<16>::any};
+      return BatchOf<16>::table();
     default:
       return {};
   }
@@ -364,6 +361,8 @@ Kernels<WideNodes, InstanceLeaves> wide_instance_kernels_of(std::uint32_t k, con
   const InstanceBatch batch = instance_batch(k);
   if (batch.closest) kernels.closest_batch = batch.closest;
   if (batch.any) kernels.any_batch = batch.any;
+  kernels.closest_batch_masked = batch.closest_masked;
+  kernels.any_batch_masked = batch.any_masked;
   return kernels;
 }
 

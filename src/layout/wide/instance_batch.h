@@ -11,6 +11,11 @@ namespace boxwood {
 struct InstanceBatch {
   void (*closest)(const Level<WideNodes, InstanceLeaves>&, std::span<const Ray>, std::span<Hit>) = nullptr;
   void (*any)(const Level<WideNodes, InstanceLeaves>&, std::span<const Ray>, std::span<std::uint8_t>) = nullptr;
+  /// With a mask for each ray.
+  void (*closest_masked)(const Level<WideNodes, InstanceLeaves>&, std::span<const Ray>, std::span<const std::uint32_t>,
+                         std::span<Hit>) = nullptr;
+  void (*any_masked)(const Level<WideNodes, InstanceLeaves>&, std::span<const Ray>, std::span<const std::uint32_t>,
+                     std::span<std::uint8_t>) = nullptr;
 };
 
 /// For nodes of 4, 8 or 16 children, walked from near to far; null for other widths.

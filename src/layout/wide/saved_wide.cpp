@@ -99,8 +99,10 @@ std::shared_ptr<const Layout> restore_wide(const SavedLevel& level, const TraceO
                           [](const auto& l, const TraceOptions& t) { return kernels_of(l, t); });
 }
 
+Box wide_bounds(const SavedLevel& level) { return level.facts.root.count == 0 ? Box{} : level.facts.root_box; }
+
 }  // namespace
 
-SavedKindEntry saved_wide() { return {SavedKind::wide, wide_damage, restore_wide}; }
+SavedKindEntry saved_wide() { return {SavedKind::wide, wide_damage, restore_wide, wide_bounds}; }
 
 }  // namespace boxwood

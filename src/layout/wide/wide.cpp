@@ -35,7 +35,9 @@ void write_lane(const Tree::Node& child, std::uint32_t first, std::uint32_t k, s
   std::memcpy(node + 6 * std::size_t{k} + 2 * std::size_t{lane}, &link, sizeof link);
 }
 
-WideNodes encode_nodes(const Tree& tree, std::uint32_t k) {
+}  // namespace
+
+WideNodes encode_wide_nodes(const Tree& tree, std::uint32_t k) {
   check_walkable(tree, k, fmt::format("wide({})", k));
   WideNodes out;
   out.k = k;
@@ -60,6 +62,8 @@ WideNodes encode_nodes(const Tree& tree, std::uint32_t k) {
   return out;
 }
 
+namespace {
+
 struct ChooseWide {
   auto operator()(const Level<WideNodes, TriangleLeaves>&, const TraceOptions& options) const {
     return wide_triangle_kernels(options);
@@ -72,17 +76,19 @@ struct ChooseWide {
 std::shared_ptr<const Layout> encode(const WideOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
   if (simd_wide_supports(options.k, tree, contents, trace)) return encode_simd_wide(options.k, tree, contents);
-  const auto nodes_of = [&](const Tree& t) { return encode_nodes(t, options.k); };
+  const auto nodes_of = [&](const Tree& t) { return encode_wide_nodes(t, options.k); };
   return encode_level(std::move(tree), contents, trace, nodes_of, ChooseWide{});
 }
 
 }  // namespace
 
 Stage wide_stage() {
-  return layout_stage<WideOptions>(
+  Stage stage = layout_stage<WideOptions>(
       "wide", "up to k children per node, boxes side by side", "Ernst, Greiner 2008; spec 000",
       OptionsOf<WideOptions>().integer("k", &WideOptions::k, 2, 256, "most children per node").positional(), encode,
       [](const WideOptions& options) { return options.k; });
+  stage.custom = true;
+  return stage;
 }
 
 }  // namespace boxwood

@@ -7,6 +7,7 @@
 #include "layout/kernel_layout.h"
 #include "layout/link.h"
 #include "layout/trace_options.h"
+#include "tree/tree.h"
 
 namespace boxwood {
 
@@ -31,6 +32,9 @@ struct WideNodes {
     out.nodes = std::as_bytes(std::span(memory));
   }
 };
+
+/// Of any tree. Throws UsageError on one of more than k children a node, Error on one too deep or too large.
+WideNodes encode_wide_nodes(const Tree& tree, std::uint32_t k);
 
 /// The fastest kernels this machine can run.
 Kernels<WideNodes, TriangleLeaves> wide_triangle_kernels(const TraceOptions& options);
