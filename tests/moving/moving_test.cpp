@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "recipe/stage.h"
 #include "support/differential.h"
+#include "support/layout_recipes.h"
 #include "support/rays.h"
 #include "support/scenes.h"
 
@@ -87,18 +87,7 @@ std::vector<std::string> recipes() {
                                   "sweep > wide(5)",
                                   "sweep > wide(8) > trace(order=axis)",
                                   "ploc > binary > trace(cull=off)"};
-  for (const Stage& stage : stages()) {
-    if (stage.kind != StageKind::layout) continue;
-    for (const char* builder : {"binned > ", "octree > "}) {
-      try {
-        Recipe::parse(builder + stage.name);
-      } catch (const UsageError&) {
-        continue;
-      }
-      out.push_back(builder + stage.name);
-      break;
-    }
-  }
+  for (const std::string& each : test::recipe_of_every_layout("binned")) out.push_back(each);
   return out;
 }
 

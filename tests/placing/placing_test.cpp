@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "boxwood/structure.h"
-#include "recipe/stage.h"
 #include "support/differential.h"
+#include "support/layout_recipes.h"
 #include "support/rays.h"
 #include "support/scenes.h"
 #include "support/valid_ray.h"
@@ -131,18 +131,7 @@ std::vector<std::uint32_t> some_masks(std::size_t count) {
 std::vector<std::string> recipes() {
   std::vector<std::string> out = {
       "default", "fast", "compact", "binned > wide(4)", "sweep > wide(16)", "binned > wide(5) > trace(order=axis)"};
-  for (const Stage& stage : stages()) {
-    if (stage.kind != StageKind::layout) continue;
-    for (const char* builder : {"binned > ", "octree > "}) {
-      try {
-        Recipe::parse(builder + stage.name);
-      } catch (const UsageError&) {
-        continue;
-      }
-      out.push_back(builder + stage.name);
-      break;
-    }
-  }
+  for (const std::string& each : test::recipe_of_every_layout("binned")) out.push_back(each);
   return out;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "boxwood/structure.h"
-#include "recipe/stage.h"
 #include "support/differential.h"
+#include "support/layout_recipes.h"
 #include "support/rays.h"
 #include "support/scenes.h"
 
@@ -39,18 +39,7 @@ std::vector<std::string> recipes() {
   std::vector<std::string> out = {
       "spatial > wide(4)", "spatial > wide(16)",           "spatial > wide(5)",
       "spatial > bih",     "octree > octree(mailbox=off)", "binned > binary > trace(cull=off)"};
-  for (const Stage& stage : stages()) {
-    if (stage.kind != StageKind::layout) continue;
-    for (const char* builder : {"spatial > ", "octree > "}) {
-      try {
-        Recipe::parse(builder + stage.name);
-      } catch (const UsageError&) {
-        continue;
-      }
-      out.push_back(builder + stage.name);
-      break;
-    }
-  }
+  for (const std::string& each : test::recipe_of_every_layout("spatial")) out.push_back(each);
   return out;
 }
 
