@@ -19,8 +19,9 @@ struct LoadOptions {
 };
 
 /// Writes a structure to a file, which appears under its name only once it is complete. Byte for byte what the kernels
-/// read, so that it can be mapped; docs/saved-structures.md has the format. The layouts `binary` and `wide` can be
-/// saved, on one level or two. Throws UsageError for others, Error when the file cannot be written.
+/// read, so that it can be mapped; docs/saved-structures.md has the format. The layouts `binary`, `wide` and
+/// `compressed` can be saved, on one level or two; the last with its mesh, which it refers to. Throws UsageError for
+/// others, Error when the file cannot be written.
 void save(const Structure& structure, const std::filesystem::path& file);
 
 /// Whether save() takes it.

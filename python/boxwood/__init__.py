@@ -11,7 +11,19 @@ while the library works, so threads run beside each other.
 
 import numpy as _numpy
 
-from ._core import HIT, NEAREST_POINT, NO_PRIMITIVE, Error, MovingStructure, Structure, UsageError, build, load
+from ._core import (
+    HIT,
+    NEAREST_POINT,
+    NO_PRIMITIVE,
+    Error,
+    MovingStructure,
+    PlacedStructure,
+    Structure,
+    UsageError,
+    _place,
+    build,
+    load,
+)
 
 __all__ = [
     "HIT",
@@ -19,12 +31,29 @@ __all__ = [
     "NO_PRIMITIVE",
     "Error",
     "MovingStructure",
+    "PlacedStructure",
     "Structure",
     "UsageError",
     "build",
     "load",
+    "place",
     "rays",
 ]
+
+
+def place(parts, transforms, which=None, masks=None, recipe="default", threads=0):
+    """Structures placed in one above them, each any number of times; what is placed may itself be placed structures.
+
+    `parts` is a structure or a list of them; `transforms`, float32 (n, 3, 4), the maps to world space, translation in the
+    last column; `which`, integers (n,), the part that each places (0); `masks`, uint32 (n,), bits of which a ray must
+    have one in common with the instance to see it. `instance` of a hit counts what is placed: see instance_path().
+    """
+    parts = list(parts) if isinstance(parts, (list, tuple)) else [parts]
+    transforms = _numpy.asarray(transforms, _numpy.float32)
+    which = _numpy.zeros(len(transforms), _numpy.uint32) if which is None else _numpy.asarray(which)
+    if which.size and (which.dtype.kind not in "iu" or which.min() < 0):
+        raise UsageError("'which' must hold the numbers of parts, from 0")
+    return _place(parts, transforms, which, masks, recipe, threads)
 
 
 def rays(origins, directions, t_near=0.0, t_far=_numpy.inf):

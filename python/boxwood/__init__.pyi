@@ -1,4 +1,4 @@
-from typing import Any, Dict, Literal, Tuple, Union
+from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,17 +14,18 @@ class UsageError(Error, ValueError): ...
 
 class _Queries:
     """An immutable acceleration structure. Rays are float32 (n, 8) as boxwood.rays() makes them; a ray that has NaN, an
-    infinite or zero direction, or coordinates beyond 1e12 hits nothing."""
+    infinite or zero direction, or coordinates beyond 1e12 hits nothing. `masks`, uint32 (n,), one for each ray: it sees
+    only instances whose masks have a bit in common with its own."""
 
-    def closest_hits(self, rays: npt.ArrayLike, *, threads: int = 1) -> npt.NDArray[np.void]:
+    def closest_hits(self, rays: npt.ArrayLike, *, masks: Optional[npt.ArrayLike] = None, threads: int = 1) -> npt.NDArray[np.void]:
         """HIT (n,): the nearest hit with t in [t_near, t_far]; t is inf and primitive NO_PRIMITIVE on a miss. `threads`: 0
         for as many as there are; the answers are the same."""
-    def any_hits(self, rays: npt.ArrayLike, *, threads: int = 1) -> npt.NDArray[np.bool_]:
+    def any_hits(self, rays: npt.ArrayLike, *, masks: Optional[npt.ArrayLike] = None, threads: int = 1) -> npt.NDArray[np.bool_]:
         """bool (n,): whether anything is hit with t in [t_near, t_far]."""
-    def all_hits(self, rays: npt.ArrayLike) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.void]]:
+    def all_hits(self, rays: npt.ArrayLike, *, masks: Optional[npt.ArrayLike] = None) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.void]]:
         """(offsets, hits): int64 (n + 1,) and HIT. Those of ray i are hits[offsets[i]:offsets[i + 1]], in order of t, each
         triangle once."""
-    def first_hits(self, rays: npt.ArrayLike, k: int) -> npt.NDArray[np.void]:
+    def first_hits(self, rays: npt.ArrayLike, k: int, *, masks: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.void]:
         """HIT (n, k): the first k hits of each ray, then misses."""
     @property
     def recipe(self) -> str: ...
@@ -46,6 +47,15 @@ class Structure(_Queries):
         distance `within`. Runs on all processors. The first call of a structure's distances builds a tree for them."""
     def signed_distances(self, points: npt.ArrayLike) -> npt.NDArray[np.float32]:
         """float32 (n,): distances to the surface, negative inside. Raises Error unless the surface is closed."""
+
+class PlacedStructure(_Queries):
+    """Structures in one above them, as place() makes it."""
+
+    @property
+    def instance_numbers(self) -> int:
+        """`instance` of a hit is below this."""
+    def instance_path(self, instance: int) -> List[int]:
+        """What was placed in what, from the outermost down: indices into `transforms` of each place()."""
 
 class MovingStructure(_Queries):
     """One whose vertices move while its triangles stay what they are. Queries may run in other threads while it moves;
@@ -83,6 +93,19 @@ def build(vertices: npt.ArrayLike, faces: npt.ArrayLike, recipe: str = "default"
 
 def load(scene: str, recipe: str = "default", threads: int = 0) -> Structure:
     """The same of a file (OBJ, PLY, glTF, STL, pbrt, …) or of "generate:NAME(option=value, …)"."""
+
+def place(
+    parts: Union[_Queries, Sequence[_Queries]],
+    transforms: npt.ArrayLike,
+    which: Optional[npt.ArrayLike] = None,
+    masks: Optional[npt.ArrayLike] = None,
+    recipe: str = "default",
+    threads: int = 0,
+) -> PlacedStructure:
+    """Structures placed in one above them: `transforms` float32 (n, 3, 4), maps to world space with the translation in the
+    last column; `which` integers (n,), the part that each places (default 0); `masks` uint32 (n,), see _Queries. Up to 6
+    levels. A moving structure is placed as it is now. Raises UsageError on a part that does not exist, Error on a map
+    without inverse."""
 
 def rays(
     origins: npt.ArrayLike,

@@ -172,3 +172,63 @@ def test_a_moving_structure_says_what_it_cannot():
         moving.refit(vertices[:-1])
     with pytest.raises(ValueError):
         boxwood.MovingStructure(vertices, faces, rebuild="sometimes")
+
+
+def moved(shift, turn=0.0):
+    c, s = np.cos(turn), np.sin(turn)
+    return np.array([[c, -s, 0, shift[0]], [s, c, 0, shift[1]], [0, 0, 1, shift[2]]], np.float32)
+
+
+@pytest.mark.parametrize("recipe", ["default", "compact"])
+def test_placed_structures_answer_as_their_triangles_would(recipe):
+    vertices, faces = soup(40)
+    box, sides = cube()
+    transforms = np.stack([moved((3, 0, 0), 0.3), moved((-3, 1, 0)), moved((0, 4, 0), 1.0)])
+    which = np.array([0, 0, 1])
+    placed = boxwood.place(
+        [boxwood.build(vertices, faces, recipe), boxwood.build(box, sides, recipe)], transforms, which
+    )
+    meshes = [(vertices, faces), (box, sides)]
+    corners = [meshes[w][0] @ t[:, :3].T + t[:, 3] for w, t in zip(which, transforms)]
+    rays = some_rays(300)
+    rays[:, 0:3] *= 4
+    hits = placed.closest_hits(rays)
+    assert placed.instance_numbers == 3 and np.isfinite(hits["t"]).sum() > 20
+    for i, ray in enumerate(rays):
+        t = [every_triangle(c.astype(np.float32), meshes[w][1], ray).min() for c, w in zip(corners, which)]
+        np.testing.assert_allclose(hits["t"][i], min(t), rtol=1e-3, atol=1e-4)
+        if np.isfinite(min(t)):
+            assert hits["instance"][i] == np.argmin(t)
+
+
+def test_masks_choose_instances():
+    part = boxwood.build(*cube())
+    both = boxwood.place(part, [moved((0, 0, 0)), moved((0, 0, 5))], masks=[1, 2])
+    rays = boxwood.rays([[0.1, 0.2, -9]] * 4, [0, 0, 1])
+    masks = np.array([1, 2, 3, 4])
+    np.testing.assert_allclose(both.closest_hits(rays, masks=masks)["t"], [8, 13, 8, np.inf])
+    np.testing.assert_array_equal(both.any_hits(rays, masks=masks, threads=0), [True, True, True, False])
+    np.testing.assert_array_equal(np.diff(both.all_hits(rays, masks=masks)[0]), [2, 2, 4, 0])
+    np.testing.assert_allclose(both.first_hits(rays, 1, masks=masks)["t"][:, 0], [8, 13, 8, np.inf])
+    with pytest.raises(boxwood.UsageError, match="'masks' must have the shape"):
+        both.closest_hits(rays, masks=masks[:2])
+
+
+def test_structures_in_structures_tell_the_way():
+    pair = boxwood.place(boxwood.build(*cube()), [moved((0, 0, 0)), moved((10, 0, 0))])
+    row = boxwood.place([pair], [moved((0, 0, 0)), moved((0, 20, 0))])
+    del pair
+    hit = row.closest_hits(boxwood.rays([[10, 20, -9]], [0, 0, 1]))[0]
+    assert hit["t"] == 8 and row.instance_path(hit["instance"]) == [1, 1]
+
+
+def test_wrong_placements_are_refused():
+    part = boxwood.build(*cube())
+    with pytest.raises(boxwood.UsageError, match="'transforms' must have the shape"):
+        boxwood.place(part, np.eye(4)[None])
+    with pytest.raises(boxwood.UsageError):
+        boxwood.place(part, [moved((0, 0, 0))], which=[1])
+    with pytest.raises(boxwood.UsageError, match="numbers of parts"):
+        boxwood.place(part, [moved((0, 0, 0))], which=[-1])
+    with pytest.raises(boxwood.Error):
+        boxwood.place(part, np.zeros((1, 3, 4), np.float32))

@@ -27,6 +27,7 @@ struct SavedKindEntry {
 SavedKindEntry saved_binary();
 SavedKindEntry saved_wide();
 SavedKindEntry saved_simd_wide();
+SavedKindEntry saved_quantized();
 
 /// Bytes of a file as the elements they are. Throws Error when they are no whole number of them.
 template <class T>

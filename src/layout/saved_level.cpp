@@ -11,7 +11,7 @@ namespace {
 
 /// Every encoding that files can hold. A new one is a line here and a number in SavedKind.
 const SavedKindEntry& entry_of(SavedKind kind) {
-  static const SavedKindEntry entries[] = {saved_binary(), saved_wide(), saved_simd_wide()};
+  static const SavedKindEntry entries[] = {saved_binary(), saved_wide(), saved_simd_wide(), saved_quantized()};
   for (const SavedKindEntry& entry : entries) {
     if (entry.kind == kind) return entry;
   }
@@ -21,7 +21,8 @@ const SavedKindEntry& entry_of(SavedKind kind) {
 
 void check_facts(const SavedFacts& facts, const TraceOptions& trace) {
   if (facts.instances > 1 || facts.cull > 1 || facts.out_of_cache > 1 || (facts.cull != 0) != trace.cull ||
-      facts.zero[0] != 0 || std::ranges::any_of(facts.zeros, [](std::uint64_t word) { return word != 0; })) {
+      facts.zero[0] != 0 || (facts.vertices != 0 && facts.kind != SavedKind::quantized) ||
+      std::ranges::any_of(facts.zeros, [](std::uint64_t word) { return word != 0; })) {
     throw Error("it has a level with flags that mean nothing");
   }
   if (!(std::isfinite(facts.reach) && facts.reach >= 0 && std::isfinite(facts.gain) && facts.gain > 0)) {
@@ -43,7 +44,7 @@ std::string find_bad_leaf(const SavedLevel& level) {
     }
     return {};
   }
-  if (level.facts.kind == SavedKind::simd_wide) return {};
+  if (level.facts.kind == SavedKind::simd_wide || level.facts.kind == SavedKind::quantized) return {};
   for (const LeafTriangle& triangle : elements_of<LeafTriangle>(level.leaves, "triangles")) {
     if (is_bad(triangle.primitive)) {
       return fmt::format("entry {} of its leaves names triangle {} of {}", number - 1, triangle.primitive,

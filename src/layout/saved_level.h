@@ -18,7 +18,7 @@ struct TriangleLeaves;
 struct InstanceLeaves;
 
 /// How a level is encoded; the number stands in files.
-enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3 };
+enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 4 };
 
 /// What kernels must know of a level besides its arrays. Stands in files as it is, 128 bytes; members that a kind of
 /// level does not use are zero.
@@ -37,7 +37,8 @@ struct SavedFacts {
   std::uint32_t primitives = 0;  ///< one more than the largest number of a triangle, or an instance, in it
   std::uint32_t zero[1] = {};
   std::uint64_t nodes = 0, inner_children = 0, triangles = 0;  ///< WideShape
-  std::uint64_t zeros[3] = {};
+  std::uint64_t vertices = 0;                                  ///< of the mesh that `leaves` ends with (quantized)
+  std::uint64_t zeros[2] = {};
 };
 static_assert(sizeof(SavedFacts) == 128);
 

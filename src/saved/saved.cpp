@@ -99,8 +99,8 @@ void save(const Structure& structure, const std::filesystem::path& file) {
   const std::vector<SavedLevel> levels = levels_of(structure);
   if (levels.empty()) {
     throw UsageError(
-        fmt::format("a structure built by '{}' cannot be saved; files hold the layouts binary and wide(k), of "
-                    "scenes",
+        fmt::format("a structure built by '{}' cannot be saved; files hold the layouts binary, wide(k) and "
+                    "compressed(k), of scenes",
                     structure.recipe().text()));
   }
   const std::string recipe = structure.recipe().text();

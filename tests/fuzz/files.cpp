@@ -46,8 +46,9 @@ Saved take_apart(const Scene& scene, const char* recipe) {
 const std::vector<Saved>& saved_structures() {
   static const std::vector<Saved> all = [] {
     std::vector<Saved> out;
-    for (const char* recipe : {"median > binary", "binned > wide(4) > trace(simd=off)", "binned > wide(4)",
-                               "median(leaf=9) > wide(8)", "binned > wide(16)"}) {
+    for (const char* recipe :
+         {"median > binary", "binned > wide(4) > trace(simd=off)", "binned > wide(4)", "median(leaf=9) > wide(8)",
+          "binned > wide(16)", "binned > collapse(8) > compressed(8)", "binned > collapse(16) > compressed(16)"}) {
       out.push_back(take_apart(test::soup(30, 0.5f, 1), recipe));
     }
     out.push_back(take_apart(test::instances(), "binned > wide(8)"));

@@ -26,6 +26,8 @@ std::vector<Case> cases() {
           {"simd4", soup(20, 0.5f, 3), "binned > wide(4)"},
           {"simd8", soup(30, 0.5f, 4), "median(leaf=9) > wide(8)"},
           {"simd16", soup(20, 0.5f, 5), "binned > wide(16)"},
+          {"compressed8", soup(30, 0.5f, 6), "median(leaf=3) > collapse(8) > compressed(8)"},
+          {"compressed16", soup(20, 0.5f, 7), "binned > collapse(16) > compressed(16)"},
           {"placed", test::instances(), "binned > wide(8)"}};
 }
 

@@ -13,7 +13,6 @@ namespace boxwood {
 namespace {
 
 constexpr std::size_t small_tree_bytes = std::size_t{4} << 20;
-constexpr std::size_t read_beyond = 8;  // names that kernels read at once
 
 /// Numbers inner nodes so that siblings are adjacent, and lists primitives so that sibling leaves are.
 template <class Node>
@@ -24,7 +23,7 @@ class Encoder {
         std::ranges::count_if(tree.nodes, [](const Tree::Node& node) { return !node.is_leaf(); }));
     out_.nodes = Arena((inner + 2) * sizeof(Node));  // none at 0, and a root even of one leaf or nothing
     nodes_ = reinterpret_cast<Node*>(out_.nodes.data());
-    out_.primitives.reserve(tree.references.size() + 1 + read_beyond);
+    out_.primitives.reserve(tree.references.size() + 1 + names_at_once);
     out_.primitives.push_back(0);
   }
 
@@ -37,7 +36,7 @@ class Encoder {
       numbers_[0] = next_number_++;
       write_inner_nodes();
     }
-    out_.primitives.insert(out_.primitives.end(), read_beyond, 0);
+    out_.primitives.insert(out_.primitives.end(), names_at_once, 0);
   }
 
  private:
@@ -129,8 +128,19 @@ float reach_of_box(const Box& box) {
 }  // namespace
 
 bool has_quantized_names(const Tree& tree) {
-  constexpr std::size_t most = (std::size_t{1} << 31) - 2 * read_beyond;
+  constexpr std::size_t most = (std::size_t{1} << 31) - 2 * names_at_once;
   return tree.references.size() < most && tree.nodes.size() < most;
+}
+
+WideView quantized_view(const std::byte* nodes, const std::uint32_t* primitives, std::span<const Vec3> positions,
+                        std::span<const Triangle> triangles) {
+  WideView view;
+  view.base = nodes;
+  view.root = 2;
+  view.primitives = primitives;
+  view.positions = positions.data();
+  view.triangles = triangles.data();
+  return view;
 }
 
 bool fits_eight(const Tree& tree) {
@@ -150,18 +160,18 @@ template <class Node>
 QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   QuantizedArena out;
   Encoder<Node>(tree, out).run();
+  out.shape.lanes = sizeof(Node::planes[0]);
   if (!tree.empty()) {
     out.shape = {out.nodes.bytes() / sizeof(Node) - (tree.nodes[0].is_leaf() ? 1 : 2), out.nodes.bytes(),
                  sizeof(Node::planes[0]), std::max<std::size_t>(tree.nodes.size() - 1, 1), tree.references.size()};
   }
-  out.view.base = out.nodes.data();
-  out.view.root = 2;
-  out.view.reach = tree.empty() ? 0 : reach_of_box(tree.nodes[0].bounds);
+  out.positions = mesh.positions;
+  out.triangles = mesh.triangles;
+  out.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
+  out.view = quantized_view(out.nodes.data(), out.primitives.data(), out.positions, out.triangles);
+  out.view.reach = tree.empty() ? 0 : reach_of_box(out.bounds);
   out.view.stack = stack_need(tree);
   out.view.out_of_cache = out.bytes() + mesh.positions.size() * sizeof(Vec3) > small_tree_bytes;
-  out.view.primitives = out.primitives.data();
-  out.view.positions = mesh.positions.data();
-  out.view.triangles = mesh.triangles.data();
   return out;
 }
 

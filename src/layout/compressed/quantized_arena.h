@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "boxwood/scene.h"
@@ -10,20 +11,34 @@
 
 namespace boxwood {
 
+struct SavedLevel;
+
 /// A compressed tree: its nodes, and the names of its triangles leaf by leaf. The triangles stay where the mesh has
 /// them: it must outlive this.
 struct QuantizedArena {
   Arena nodes;
   std::vector<std::uint32_t> primitives;
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
+  Box bounds;
   WideView view;
   WideShape shape;
 
   std::size_t bytes() const { return nodes.bytes() + primitives.capacity() * sizeof(std::uint32_t); }
   std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
+  /// Files hold the mesh as well, so that what is loaded needs no caller's. Copies it; O(n).
+  void save(SavedLevel& out) const;
 };
+
+/// Names that kernels read at once, and so beyond the last leaf.
+inline constexpr std::size_t names_at_once = 8;
 
 /// Whether names of nodes and of primitives fit 31 bits, of which references use the rest. O(1).
 bool has_quantized_names(const Tree& tree);
+
+/// The view of nodes whose root is the first but one.
+WideView quantized_view(const std::byte* nodes, const std::uint32_t* primitives, std::span<const Vec3> positions,
+                        std::span<const Triangle> triangles);
 
 /// Whether QuantizedNode8 can number what lies before the last leaf of every node. O(nodes).
 bool fits_eight(const Tree& tree);

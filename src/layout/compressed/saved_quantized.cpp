@@ -1,0 +1,196 @@
+// Compressed trees in files. Their leaves only name triangles, so the mesh goes with them: names, positions, triangles.
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "layout/compressed/compressed_kernels.h"
+#include "layout/compressed/quantize.h"
+#include "layout/compressed/quantized_arena.h"
+#include "layout/saved_kind.h"
+#include "layout/simd/simd_layout.h"
+
+namespace boxwood {
+namespace {
+
+struct NamesAndMesh {
+  std::span<const std::uint32_t> names;
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
+};
+
+/// Throws Error when the leaves are not as long as the facts say.
+NamesAndMesh split_leaves(const SavedLevel& level) {
+  const std::size_t size = level.leaves.size();
+  const std::uint64_t vertices = level.facts.vertices, triangles = level.facts.primitives;
+  const bool fits = vertices <= size / sizeof(Vec3) && triangles <= size / sizeof(Triangle) &&
+                    vertices * sizeof(Vec3) + triangles * sizeof(Triangle) <= size;
+  const std::size_t begin_of_mesh = fits ? size - vertices * sizeof(Vec3) - triangles * sizeof(Triangle) : 0;
+  if (begin_of_mesh < (1 + names_at_once) * sizeof(std::uint32_t)) throw Error("its mesh ends within a triangle");
+  const auto mesh = level.leaves.subspan(begin_of_mesh);
+  return {elements_of<std::uint32_t>(level.leaves.first(begin_of_mesh), "names of triangles"),
+          elements_of<Vec3>(mesh.first(vertices * sizeof(Vec3)), "vertices"),
+          elements_of<Triangle>(mesh.subspan(vertices * sizeof(Vec3)), "triangles")};
+}
+
+/// A compressed tree in memory that someone else keeps.
+struct KeptQuantized {
+  SavedLevel level;
+  WideView view;
+  WideShape shape;
+
+  std::size_t bytes() const { return level.nodes.size() + split_leaves(level).names.size_bytes(); }
+  std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
+  void save(SavedLevel& out) const { out = level; }
+};
+
+/// As the kernels find it, in the same arithmetic; 0 where there is none.
+WideReference child_of(const QuantizedNode8& node, int lane) {
+  if (node.place[lane] == no_child) return wide_nothing;
+  const bool inner = (node.inner >> lane & 1) != 0;
+  return (inner ? node.first_node * 2 : node.first_primitive * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
+}
+WideReference child_of(const QuantizedNode16& node, int lane) { return node.children[lane]; }
+
+/// Walks everything from the root; each node and each name may belong to one thing only, so the walk ends and so do all
+/// others.
+template <class Node, int N>
+class QuantizedCheck {
+ public:
+  explicit QuantizedCheck(const SavedLevel& level)
+      : facts_(level.facts), nodes_(elements_of<Node>(level.nodes, "nodes")), leaves_(split_leaves(level)) {}
+
+  std::string run() {
+    if (nodes_.size() < 2) return "it has no root";
+    for (const Triangle& triangle : leaves_.triangles) {
+      for (const std::uint32_t vertex : triangle) {
+        if (vertex >= leaves_.positions.size()) return "a triangle of its mesh names a vertex that it does not have";
+      }
+    }
+    node_taken_.resize(nodes_.size());
+    name_taken_.resize(leaves_.names.size());
+    pending_.push_back({2, 1});
+    while (!pending_.empty()) {
+      const auto [reference, need] = pending_.back();
+      pending_.pop_back();
+      if (!(is_leaf(reference) ? check_leaf(reference >> 1) : check_node(reference >> 1, need))) {
+        return fmt::format("{} {} is none that any walk could use", is_leaf(reference) ? "leaf" : "node",
+                           reference >> 1);
+      }
+    }
+    return {};
+  }
+
+ private:
+  struct Pending {
+    WideReference reference;
+    std::uint32_t need;
+  };
+
+  bool check_node(std::uint32_t number, std::uint32_t need) {
+    if (number == 0 || number >= nodes_.size() || node_taken_[number]) return false;
+    node_taken_[number] = true;
+    const Node& node = nodes_[number];
+    std::uint32_t children = 0;
+    while (children < N && child_of(node, static_cast<int>(children)) > wide_finished) ++children;
+    const std::uint32_t below = need + children - (children > 0 ? 1 : 0);
+    if (below > facts_.stack) return false;
+    for (int lane = 0; lane < N; ++lane) {
+      const bool used = lane < static_cast<int>(children);
+      if (!(used ? is_sound(box(node, lane)) : child_of(node, lane) == wide_nothing)) return false;
+      if (used) pending_.push_back({child_of(node, lane), below});
+    }
+    return true;
+  }
+
+  bool check_leaf(std::size_t place) {
+    if (place == 0) return false;
+    for (bool more = true; more; ++place) {
+      if (place + names_at_once >= leaves_.names.size() || name_taken_[place]) return false;
+      name_taken_[place] = true;
+      const std::uint32_t name = leaves_.names[place];
+      if ((name & ~last_of_leaf) >= leaves_.triangles.size()) return false;
+      more = (name & last_of_leaf) == 0;
+    }
+    return true;
+  }
+
+  static Box box(const Node& node, int lane) {
+    Grid grid;
+    Box out;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      grid.origin[axis] = node.origin[axis];
+      grid.exponent[axis] = node.exponent[axis];
+      out.lower[axis] = grid.at(axis, node.planes[2 * axis][lane]);
+      out.upper[axis] = grid.at(axis, node.planes[2 * axis + 1][lane]);
+    }
+    return out;
+  }
+
+  const SavedFacts& facts_;
+  std::span<const Node> nodes_;
+  NamesAndMesh leaves_;
+  std::vector<bool> node_taken_, name_taken_;
+  std::vector<Pending> pending_;
+};
+
+/// Calls use.template operator()<Node, N>() for the nodes that the level has.
+template <class Use>
+auto with_nodes(const SavedFacts& facts, const Use& use) {
+  if (facts.children == 8) return use.template operator()<QuantizedNode8, 8>();
+  if (facts.children == 16) return use.template operator()<QuantizedNode16, 16>();
+  throw Error(fmt::format("it has compressed nodes of {} children, which no kernel traces", facts.children));
+}
+
+std::string quantized_damage(const SavedLevel& level) {
+  const SavedFacts& facts = level.facts;
+  if (facts.instances) return "it has leaves where none belong";
+  if (facts.stack > wide_stack_limit) return "it is deeper than any walk can go";
+  return with_nodes(facts, [&]<class Node, int N>() { return QuantizedCheck<Node, N>(level).run(); });
+}
+
+std::shared_ptr<const Layout> restore_quantized(const SavedLevel& level, const TraceOptions& trace) {
+  const SavedFacts& facts = level.facts;
+  if (trace != TraceOptions{}) throw Error("it is to be walked in a way that its nodes are not made for");
+  if (facts.stack > wide_stack_limit) throw Error("it is deeper than any walk can go");
+  const NamesAndMesh leaves = split_leaves(level);
+  WideView view = quantized_view(level.nodes.data(), leaves.names.data(), leaves.positions, leaves.triangles);
+  view.reach = facts.reach;
+  view.stack = facts.stack;
+  view.out_of_cache = facts.out_of_cache != 0;
+  return with_nodes(facts, [&]<class Node, int N>() -> std::shared_ptr<const Layout> {
+    if (elements_of<Node>(level.nodes, "nodes").size() < 2) throw Error("it has no root");
+    const WideShape shape{facts.nodes, level.nodes.size(), N, facts.inner_children, facts.triangles};
+    return std::make_shared<SimdLayout<KeptQuantized>>(KeptQuantized{level, view, shape}, compressed_kernels<N>());
+  });
+}
+
+Box quantized_bounds(const SavedLevel& level) { return level.facts.triangles == 0 ? Box{} : level.facts.root_box; }
+
+}  // namespace
+
+void QuantizedArena::save(SavedLevel& out) const {
+  out.facts.kind = SavedKind::quantized;
+  out.facts.children = static_cast<std::uint32_t>(shape.lanes);
+  out.facts.out_of_cache = view.out_of_cache ? 1 : 0;
+  out.facts.stack = view.stack;
+  out.facts.reach = view.reach;
+  if (shape.triangles != 0) out.facts.root_box = bounds;
+  out.facts.primitives = static_cast<std::uint32_t>(triangles.size());
+  out.facts.vertices = positions.size();
+  out.facts.nodes = shape.nodes;
+  out.facts.inner_children = shape.children;
+  out.facts.triangles = shape.triangles;
+  out.nodes = {nodes.data(), nodes.bytes()};
+  const auto leaves = std::make_shared<std::vector<std::byte>>();
+  for (const auto part : {std::as_bytes(std::span(primitives)), std::as_bytes(positions), std::as_bytes(triangles)}) {
+    leaves->insert(leaves->end(), part.begin(), part.end());
+  }
+  out.leaves = *leaves;
+  out.owner = leaves;
+}
+
+SavedKindEntry saved_quantized() {
+  return {SavedKind::quantized, quantized_damage, restore_quantized, quantized_bounds};
+}
+
+}  // namespace boxwood
