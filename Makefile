@@ -35,7 +35,7 @@ test-sanitized: deps ## The whole test suite under ASan+UBSan
 	@ctest --test-dir build/asan -j$(THREADS) --output-on-failure --output-junit Testing/junit.xml --progress
 
 # One structure, image or answer on any number of threads, and one structure asked by many.
-THREADED := build fastbuild pca octree structure heuristics moving distance render measure limits
+THREADED := build fastbuild pca octree structure heuristics moving distance render measure limits custom placing
 test-threads: ## Builders, batches, renderers, and queries from many threads, under the thread sanitizer
 	@scripts/install-packages.sh dpkg-dev
 	@scripts/instrumented-tbb.sh build/tsan-tbb

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recipe/stage.h"
+#include "support/concurrent.h"
 #include "support/differential.h"
 #include "support/rays.h"
 #include "support/scenes.h"
@@ -199,6 +200,13 @@ INSTANTIATE_TEST_SUITE_P(Recipes, CustomPrimitivesOf,
                          testing::Values("default", "fast", "compact", "binned > wide(4)", "sweep > wide(16)",
                                          "median > wide(3)"),
                          [](const auto& parameters) { return std::to_string(parameters.index); });
+
+TEST(ConcurrentQueries, OfCustomPrimitivesAnswerAsAlone) {
+  const auto balls = std::make_shared<const Balls>(random_balls(300, 5));
+  for (const char* recipe : {"default", "compact"}) {
+    EXPECT_FALSE(test::answers_differ(build(balls, recipe), rays_at_balls(200, 3))) << recipe;
+  }
+}
 
 TEST(CustomPrimitivesWith, BoxesThatAreNoBoxes_AreLeftOut) {
   std::vector<Ball> balls = {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boxwood/structure.h"
+#include "support/concurrent.h"
 #include "support/differential.h"
 #include "support/layout_recipes.h"
 #include "support/rays.h"
@@ -236,6 +237,13 @@ TEST(PlacingOf, ThousandsOfRaysThatEnterTogether_AreAnsweredLikeSingleOnes) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       ASSERT_TRUE(test::same_bits(hits[i], world.top().closest_hit(rays[i], masked ? masks[i] : every_bit))) << i;
     }
+  }
+}
+
+TEST(ConcurrentQueries, OfPlacedStructuresAnswerAsAlone) {
+  for (const char* recipe : {"default", "median > binary", "compact"}) {
+    const World world(recipe);
+    EXPECT_FALSE(test::answers_differ(world.top(), rays_into(world.top().report().bounds, 200, 9))) << recipe;
   }
 }
 
