@@ -8,6 +8,7 @@
 
 #include "boxwood/error.h"
 #include "layout/compressed/quantize.h"
+#include "layout/simd/tree_pieces.h"
 
 namespace boxwood {
 namespace {
@@ -157,7 +158,7 @@ QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   out.view.base = out.nodes.data();
   out.view.root = 2;
   out.view.reach = tree.empty() ? 0 : reach_of_box(tree.nodes[0].bounds);
-  out.view.stack = stack_need(tree);
+  out.view.stack = needs_of(tree).stack;
   out.view.out_of_cache = out.bytes() + mesh.positions.size() * sizeof(Vec3) > small_tree_bytes;
   out.view.primitives = out.primitives.data();
   out.view.positions = mesh.positions.data();
