@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <mutex>
 
@@ -19,14 +20,16 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-#ifdef BOXWOOD_MAPS_LARGE_MEMORY
+[[maybe_unused]] constexpr std::size_t whole_pages(std::size_t bytes) {
+  return (bytes + huge_page - 1) / huge_page * huge_page;
+}
 
-constexpr std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
+#ifdef __linux__
 
-/// Maps a huge page too much and gives back what lies outside the aligned range.
-std::byte* map(std::size_t size) {
+/// Maps a huge page too much and gives back what lies outside the aligned range. Null when there is no memory.
+std::byte* map(std::size_t size) noexcept {
   void* mapped = mmap(nullptr, size + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  if (mapped == MAP_FAILED) return nullptr;
   auto* begin = static_cast<std::byte*>(mapped);
   void* end = begin + huge_page;
   std::size_t room = size + huge_page;
@@ -38,6 +41,17 @@ std::byte* map(std::size_t size) {
   madvise(memory, size, MADV_HUGEPAGE);  // A wish: without huge pages everything works, only slower.
   return memory;
 }
+
+#endif
+
+/// Of memory that outlives its stage.
+constexpr std::size_t mapped_bytes(std::size_t bytes) {
+  constexpr std::size_t small_page = 4096;
+  const std::size_t whole = whole_pages(bytes);
+  return whole - bytes <= bytes / 2 ? whole : (bytes + small_page - 1) / small_page * small_page;
+}
+
+#ifdef BOXWOOD_MAPS_LARGE_MEMORY
 
 struct Block {
   std::byte* memory;
@@ -58,8 +72,10 @@ class Blocks {
       if (best == free_.end() || block->size < best->size) best = block;
     }
     if (best == free_.end()) {
-      used_.push_back({map(size), size});
-      return used_.back().memory;
+      std::byte* const memory = map(size);
+      if (!memory) throw std::bad_alloc();
+      used_.push_back({memory, size});
+      return memory;
     }
     used_.push_back(*best);
     free_.erase(best);
@@ -125,6 +141,28 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
 void prefer_huge_pages(void*, std::size_t) {}
 void* allocate_large(std::size_t bytes) { return ::operator new (bytes, std::align_val_t{huge_page}); }
 void free_large(void* memory) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
+
+#endif
+
+#ifdef __linux__
+
+void* map_zeroed(std::size_t bytes) noexcept {
+  if (mapped_bytes(bytes) >= huge_page) return map(mapped_bytes(bytes));
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return memory == MAP_FAILED ? nullptr : memory;
+}
+
+void unmap_zeroed(void* memory, std::size_t bytes) noexcept { munmap(memory, mapped_bytes(bytes)); }
+
+#else
+
+void* map_zeroed(std::size_t bytes) noexcept {
+  void* memory = ::operator new (mapped_bytes(bytes), std::align_val_t{huge_page}, std::nothrow);
+  if (memory) std::memset(memory, 0, bytes);
+  return memory;
+}
+
+void unmap_zeroed(void* memory, std::size_t) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
 
 #endif
 

@@ -11,7 +11,12 @@ namespace boxwood {
 
 /// From this size on memory is taken from the system in huge pages: the first touch of a 4 KiB page costs as much as
 /// writing it ten times over, and a build touches a hundred bytes per triangle and more.
-inline constexpr std::size_t large_bytes = std::size_t{1} << 20;
+inline constexpr std::size_t large_bytes = std::size_t{1} << 18;
+
+/// Zeroed memory for what outlives its stage, in huge pages where the system grants them; its last bytes too, where
+/// rounding up adds no more than half. Null when there is none. Thread safe.
+void* map_zeroed(std::size_t bytes) noexcept;
+void unmap_zeroed(void* memory, std::size_t bytes) noexcept;
 
 /// Memory of at least large_bytes, aligned to 2 MiB, in huge pages where the system grants them. What it holds is
 /// arbitrary. A few blocks that were freed are kept for the next (`kept_large_bytes` in all), so that neither the

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "math/clip.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 namespace {
@@ -37,24 +38,30 @@ std::vector<Reference> MeshGeometry::references() const {
   constexpr std::size_t chunk = 1 << 14;
   const std::size_t count = mesh_.triangles.size();
   const std::size_t chunks = (count + chunk - 1) / chunk;
-  // Two passes: count per chunk, then write each chunk at its place, so that the order never depends on the threads.
-  std::vector<std::size_t> begin(chunks + 1, 0);
+  // Each chunk fills its own part, so that the order never depends on the threads; then the gaps are closed.
+  std::vector<Reference> out;
+  reserve_large(out, count);
+  out.resize(count);
+  std::vector<std::size_t> ends(chunks);
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-      begin[c + 1] += is_usable(mesh_, static_cast<std::uint32_t>(i)) ? 1 : 0;
-    }
-  });
-  for (std::size_t c = 0; c < chunks; ++c) begin[c + 1] += begin[c];
-  std::vector<Reference> out(begin[chunks]);
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    std::size_t next = begin[c];
+    std::size_t next = c * chunk;
     for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
       const auto primitive = static_cast<std::uint32_t>(i);
-      if (!is_usable(mesh_, primitive)) continue;
       const Box box = box_of(mesh_, mesh_.triangles[i]);
-      out[next++] = {box.lower, primitive, box.upper, 0};
+      out[next] = {box.lower, primitive, box.upper, 0};
+      next += is_usable(mesh_, primitive) ? 1 : 0;
     }
+    ends[c] = next;
   });
+  std::size_t end = 0;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const std::size_t begin = c * chunk, size = ends[c] - begin;
+    if (end < begin)
+      std::copy_n(out.begin() + static_cast<std::ptrdiff_t>(begin), size,
+                  out.begin() + static_cast<std::ptrdiff_t>(end));
+    end += size;
+  }
+  out.resize(end);
   return out;
 }
 

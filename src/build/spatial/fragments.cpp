@@ -22,35 +22,38 @@ void fit(Fragments& part, std::span<const Reference> references) {
 }  // namespace
 
 /// The first `left_count` references of the node stay where they are, the others move behind the left side's room.
-FragmentPair FragmentDivider::hand_out(const Fragments& node, std::uint32_t left_count) {
+FragmentPair FragmentDivider::hand_out(const Fragments& node, std::uint32_t left_count, bool room) {
   const std::uint32_t right_count = node.size() - left_count;
-  const auto left_room = static_cast<std::uint32_t>(std::uint64_t{node.room()} * left_count / node.size());
+  const auto left_room = room ? static_cast<std::uint32_t>(std::uint64_t{node.room()} * left_count / node.size()) : 0;
   FragmentPair pair;
   pair.left.begin = node.begin;
   pair.left.end = node.begin + left_count;
   pair.left.limit = pair.right.begin = pair.left.end + left_room;
   pair.right.end = pair.right.begin + right_count;
-  pair.right.limit = node.limit;
+  pair.right.limit = room ? node.limit : pair.right.end;
   if (left_room > 0) {
     const auto first = array_.begin() + pair.left.end;
     std::copy_backward(first, first + right_count, array_.begin() + pair.right.end);
   }
+  return pair;
+}
+
+FragmentPair FragmentDivider::fitted(FragmentPair pair) const {
   fit(pair.left, references(pair.left));
   fit(pair.right, references(pair.right));
   return pair;
 }
 
-FragmentPair FragmentDivider::by_centers(const Fragments& node, const Split& split) {
-  // Without a branch on the outcome, which nothing could predict.
-  const std::span<Reference> all = references(node);
-  std::size_t left = 0;
-  for (Reference& reference : all) {
-    const Reference moved = reference;
-    reference = all[left];
-    all[left] = moved;
-    left += split.slabs(moved.center2(split.axis), split.axis) < split.border ? 1 : 0;
-  }
-  return hand_out(node, static_cast<std::uint32_t>(left));
+FragmentPair FragmentDivider::by_centers(const Fragments& node, const Split& split, bool room) {
+  Box4 left_centers, right_centers;
+  const std::size_t left =
+      divide_at(references(node), split.slabs.scale(), split.axis, split.border, left_centers, right_centers);
+  FragmentPair pair = hand_out(node, static_cast<std::uint32_t>(left), room);
+  pair.left.bounds = split.left;
+  pair.left.centers = left_centers;
+  pair.right.bounds = split.right;
+  pair.right.centers = right_centers;
+  return pair;
 }
 
 FragmentPair FragmentDivider::by_count(const Fragments& node) {
@@ -61,7 +64,7 @@ FragmentPair FragmentDivider::by_count(const Fragments& node) {
     if (a.center2(axis) != b.center2(axis)) return a.center2(axis) < b.center2(axis);
     return a.primitive < b.primitive;
   });
-  return hand_out(node, node.size() / 2);
+  return fitted(hand_out(node, node.size() / 2, true));
 }
 
 FragmentPair FragmentDivider::by_space(const Fragments& node, const Split& split) {
@@ -88,7 +91,7 @@ FragmentPair FragmentDivider::by_space(const Fragments& node, const Split& split
   Fragments grown = node;
   grown.end = left + static_cast<std::uint32_t>(right_.size());
   std::copy(right_.begin(), right_.end(), array_.begin() + left);
-  return hand_out(grown, left - node.begin);
+  return fitted(hand_out(grown, left - node.begin, true));
 }
 
 /// Left parts are collected in cut_, right parts in right_. `sides` keeps count of what the split costs by now.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "build/build_input.h"
@@ -25,23 +26,25 @@ struct FragmentPair {
 /// Divides a node's references as a split says, and its room with them. One per thread.
 class FragmentDivider {
  public:
-  FragmentDivider(std::vector<Reference>& array, const Geometry* geometry, bool unsplit)
+  FragmentDivider(std::span<Reference> array, const Geometry* geometry, bool unsplit)
       : array_(array), geometry_(geometry), unsplit_(unsplit) {}
 
-  FragmentPair by_centers(const Fragments& node, const Split& split);
+  /// `room`: whether parts may need room to grow. Leaving it to them takes a pass over half of the references.
+  FragmentPair by_centers(const Fragments& node, const Split& split, bool room);
   /// Cuts what lies on both sides. With `unsplit`, what is cheaper left whole goes to one side (Stich et al. 2009,
   /// section 4.4). A side may turn out empty.
   FragmentPair by_space(const Fragments& node, const Split& split);
   /// By halves, in the order of the centres along the widest axis: for references that nothing else tells apart.
   FragmentPair by_count(const Fragments& node);
 
-  std::span<Reference> references(const Fragments& node) const { return {array_.data() + node.begin, node.size()}; }
+  std::span<Reference> references(const Fragments& node) const { return array_.subspan(node.begin, node.size()); }
 
  private:
-  FragmentPair hand_out(const Fragments& node, std::uint32_t left_count);
+  FragmentPair hand_out(const Fragments& node, std::uint32_t left_count, bool room);
+  FragmentPair fitted(FragmentPair pair) const;
   void place_cut(const Reference& reference, const Split& split, Split& sides);
 
-  std::vector<Reference>& array_;
+  std::span<Reference> array_;
   const Geometry* geometry_;
   bool unsplit_;
   std::vector<Reference> cut_, right_;

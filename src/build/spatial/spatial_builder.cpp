@@ -2,11 +2,12 @@
 // from both sides. Stich, Friedrich and Dietrich 2009, "Spatial Splits in Bounding Volume Hierarchies".
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
 #include <memory>
-#include <vector>
+#include <span>
 
 #include "boxwood/error.h"
 #include "build/spatial/fragments.h"
@@ -37,14 +38,19 @@ constexpr float least_overlap = 0.1f;
 /// Below this level sets are halved by count, so that no input makes a deep tree.
 constexpr std::uint32_t last_free_level = 64;
 
-/// A part of the tree: divided further, or, in `nodes` (the root first, places counted from it) and `references`,
-/// whole.
+/// What one thread has written: nodes with their children side by side, and the primitives of leaves.
+struct Sink {
+  LargeVector<Tree::Node> nodes;
+  LargeVector<std::uint32_t> references;
+};
+
+/// A part of the tree: divided further, or whole in a sink, the root first.
 struct Branch {
   Box bounds;
   ChildAxis axis;
   std::unique_ptr<Branch> children[2];
-  std::vector<Tree::Node> nodes;
-  std::vector<std::uint32_t> references;
+  const Sink* sink = nullptr;  ///< null: divided further
+  std::size_t first_node = 0, first_reference = 0, node_count = 0, reference_count = 0;
 };
 
 class SpatialBuilder {
@@ -54,22 +60,25 @@ class SpatialBuilder {
         price_{static_cast<std::uint32_t>(std::bit_width(options.block - 1))},
         geometry_(input.geometry),
         use_(input.use),
-        array_(std::move(input.references)),
-        dividers_([this] { return FragmentDivider(array_, geometry_, options_.unsplit); }) {}
+        size_(static_cast<std::uint32_t>(input.references.size())),
+        array_(size_ + (geometry_ ? static_cast<std::size_t>(double{options_.budget} * size_) : 0)),
+        dividers_([this] { return FragmentDivider(array_, geometry_, options_.unsplit); }),
+        sinks_([this] { return make_sink(); }) {
+    const std::vector<Reference> references = std::move(input.references);
+    std::copy(references.begin(), references.end(), array_.data());
+  }
 
   Tree run() {
     Fragments all;
-    all.end = static_cast<std::uint32_t>(array_.size());
-    for (const Reference& reference : array_) {
+    all.end = size_;
+    all.limit = static_cast<std::uint32_t>(array_.size());
+    for (const Reference& reference : std::span<const Reference>(array_).first(size_)) {
       const Box4 box = box4(reference);
       all.bounds.grow(box);
       all.centers.grow(box.lower + box.upper);
     }
     if (!options_.cost.is_surface_area()) model_ = options_.cost.make({all.bounds.box(), use_});
     root_area_ = half_area(all.bounds);
-    const double room = geometry_ ? static_cast<double>(array_.size()) * double{options_.budget} : 0;
-    all.limit = all.end + static_cast<std::uint32_t>(room);
-    array_.resize(all.limit);
     const std::unique_ptr<Branch> root = grow(all, 0, nullptr);
     Tree tree;
     tree.clipped_leaves = geometry_ != nullptr;
@@ -88,14 +97,28 @@ class SpatialBuilder {
     return model_ ? model_->enter(node.bounds.box(), parent.get()) : nullptr;
   }
 
+  /// Memory that stays untouched costs nothing, growing does.
+  Sink make_sink() const {
+    const std::size_t share = size_ / static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    Sink sink;
+    sink.nodes.reserve(2 * share);
+    sink.references.reserve(share);
+    return sink;
+  }
+
+  /// Space is divided only where the parts overlap by something that matters in the whole scene, which they do not in
+  /// small nodes, nor below them.
+  bool may_divide_space(const Fragments& node) const {
+    return geometry_ && node.room() > 0 && half_area(node.bounds) >= options_.alpha * root_area_;
+  }
+
   Split find_split(const Fragments& node, FragmentDivider& divider, const Memory& memory, bool& spatial) const {
     FragmentSet set{divider.references(node), node.bounds, node.centers};
     if (model_ && !model_->is_surface_area(memory.get())) set.model = model_.get(), set.memory = memory.get();
     const std::uint32_t bins = std::min(options_.bins, 4 + node.size() / 2);
     Split best = find_object_split(set, bins, price_);
     spatial = false;
-    if (!geometry_ || node.room() == 0) return best;
-    // Try to divide space where the parts would overlap by something that matters in the whole scene.
+    if (!may_divide_space(node)) return best;
     if (best.found()) {
       const Box overlap = intersect(best.left.box(), best.right.box());
       const float least = std::max(options_.alpha * root_area_, least_overlap * half_area(node.bounds));
@@ -112,18 +135,19 @@ class SpatialBuilder {
   }
 
   /// False: the node is to be a leaf.
-  bool divide(const Fragments& node, std::uint32_t level, const Memory& memory, FragmentPair& parts) {
+  bool divide(const Fragments& node, std::uint32_t level, const Memory& memory, FragmentDivider& divider,
+              FragmentPair& parts) const {
     const std::uint32_t count = node.size();
-    if (count == 1) return false;
-    FragmentDivider& divider = dividers_.local();
+    const float area = half_area(node.bounds);
+    // One block of references is never cheaper divided.
+    if (count <= options_.leaf && price_(count) <= 1) return false;
     bool spatial = false;
     const Split split = level < last_free_level ? find_split(node, divider, memory, spatial) : Split{};
-    const float area = half_area(node.bounds);
     if (count <= options_.leaf && area * price_(count) <= area + split.cost) return false;
     if (!split.found()) {
       parts = divider.by_count(node);
     } else if (!spatial) {
-      parts = divider.by_centers(node, split);
+      parts = divider.by_centers(node, split, may_divide_space(node));
     } else {
       parts = divider.by_space(node, split);
       // Nothing was cut after all.
@@ -137,21 +161,28 @@ class SpatialBuilder {
   std::unique_ptr<Branch> grow(const Fragments& node, std::uint32_t level, const Memory& parent) {
     auto branch = std::make_unique<Branch>();
     branch->bounds = node.bounds.box();
-    FragmentPair parts;
     if (node.size() <= serial_size) {
-      branch->nodes.reserve(2 * std::size_t{node.size()});
-      branch->references.reserve(2 * std::size_t{node.size()});
-      branch->nodes.emplace_back();
-      write(node, level, parent, 0, *branch);
+      write_branch(node, level, parent, *branch);
       return branch;
     }
     const Memory memory = enter(node, parent);
-    if (divide(node, level, memory, parts)) {
-      order(parts, branch->axis);
-      tbb::parallel_invoke([&] { branch->children[0] = grow(parts.left, level + 1, memory); },
-                           [&] { branch->children[1] = grow(parts.right, level + 1, memory); });
-    }
+    FragmentPair parts;
+    divide(node, level, memory, dividers_.local(), parts);  // It is far too large for a leaf.
+    order(parts, branch->axis);
+    tbb::parallel_invoke([&] { branch->children[0] = grow(parts.left, level + 1, memory); },
+                         [&] { branch->children[1] = grow(parts.right, level + 1, memory); });
     return branch;
+  }
+
+  void write_branch(const Fragments& node, std::uint32_t level, const Memory& parent, Branch& branch) {
+    Sink& sink = sinks_.local();
+    branch.sink = &sink;
+    branch.first_node = sink.nodes.size();
+    branch.first_reference = sink.references.size();
+    sink.nodes.emplace_back();
+    write(node, level, parent, branch.first_node, sink, dividers_.local());
+    branch.node_count = sink.nodes.size() - branch.first_node;
+    branch.reference_count = sink.references.size() - branch.first_reference;
   }
 
   /// Puts the sides in ascending order along the axis that separates them best.
@@ -160,33 +191,34 @@ class SpatialBuilder {
     if (axis.descending) std::swap(parts.left, parts.right);
   }
 
-  /// Sets nodes[place] of a branch and appends all that is below it, depth first with siblings side by side.
-  void write(const Fragments& node, std::uint32_t level, const Memory& parent, std::size_t place, Branch& branch) {
+  /// Sets sink.nodes[place] and appends all that is below it, depth first with siblings side by side.
+  void write(const Fragments& node, std::uint32_t level, const Memory& parent, std::size_t place, Sink& sink,
+             FragmentDivider& divider) {
     const Memory memory = enter(node, parent);
     Tree::Node out;
     out.bounds = node.bounds.box();
     FragmentPair parts;
-    if (!divide(node, level, memory, parts)) {
+    if (!divide(node, level, memory, divider, parts)) {
       out.leaf = 1;
-      out.first = static_cast<std::uint32_t>(branch.references.size());
-      out.count = append_primitives(node, branch.references) & Tree::max_count;
-      branch.nodes[place] = out;
+      out.first = static_cast<std::uint32_t>(sink.references.size());
+      out.count = append_primitives(node, sink.references) & Tree::max_count;
+      sink.nodes[place] = out;
       return;
     }
     ChildAxis axis;
     order(parts, axis);
-    const std::size_t first = branch.nodes.size();
+    const std::size_t first = sink.nodes.size();
     out.first = static_cast<std::uint32_t>(first);
     out.count = 2;
     out.axis = axis.axis & 3;
-    branch.nodes[place] = out;
-    branch.nodes.resize(first + 2);
-    write(parts.left, level + 1, memory, first, branch);
-    write(parts.right, level + 1, memory, first + 1, branch);
+    sink.nodes[place] = out;
+    sink.nodes.resize(first + 2);
+    write(parts.left, level + 1, memory, first, sink, divider);
+    write(parts.right, level + 1, memory, first + 1, sink, divider);
   }
 
   /// Two parts of one primitive in the same leaf are one. Returns how many were appended.
-  std::uint32_t append_primitives(const Fragments& node, std::vector<std::uint32_t>& references) {
+  std::uint32_t append_primitives(const Fragments& node, LargeVector<std::uint32_t>& references) const {
     const auto first = static_cast<std::ptrdiff_t>(references.size());
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
       const std::uint32_t primitive = array_[i].primitive;
@@ -202,7 +234,7 @@ class SpatialBuilder {
   };
 
   static Sizes sizes_of(const Branch& branch) {
-    if (!branch.nodes.empty()) return {branch.nodes.size(), branch.references.size()};
+    if (branch.sink) return {branch.node_count, branch.reference_count};
     const Sizes left = sizes_of(*branch.children[0]), right = sizes_of(*branch.children[1]);
     return {1 + left.nodes + right.nodes, left.references + right.references};
   }
@@ -210,14 +242,19 @@ class SpatialBuilder {
   /// Sets tree.nodes[place] to a branch's root and appends the rest of it.
   static void stitch(const Branch& branch, std::size_t place, Tree& tree) {
     const auto first = static_cast<std::uint32_t>(tree.nodes.size());
-    if (!branch.nodes.empty()) {
+    if (branch.sink) {
       const auto first_reference = static_cast<std::uint32_t>(tree.references.size());
-      tree.references.insert(tree.references.end(), branch.references.begin(), branch.references.end());
-      tree.nodes.insert(tree.nodes.end(), branch.nodes.begin() + 1, branch.nodes.end());
-      tree.nodes[place] = branch.nodes.front();
-      const auto settle = [&](Tree::Node& node) { node.first += node.is_leaf() ? first_reference : first - 1; };
-      settle(tree.nodes[place]);
-      for (std::size_t i = first; i < tree.nodes.size(); ++i) settle(tree.nodes[i]);
+      const auto nodes = std::span(branch.sink->nodes).subspan(branch.first_node, branch.node_count);
+      const auto references =
+          std::span(branch.sink->references).subspan(branch.first_reference, branch.reference_count);
+      const auto settled = [&](Tree::Node node) {
+        node.first += static_cast<std::uint32_t>(node.is_leaf() ? first_reference - branch.first_reference
+                                                                : first - 1 - branch.first_node);
+        return node;
+      };
+      tree.references.insert(tree.references.end(), references.begin(), references.end());
+      tree.nodes[place] = settled(nodes.front());
+      for (const Tree::Node& node : nodes.subspan(1)) tree.nodes.push_back(settled(node));
       return;
     }
     Tree::Node& node = tree.nodes[place];
@@ -235,9 +272,11 @@ class SpatialBuilder {
   LeafPrice price_;
   const Geometry* geometry_;
   const KnownUse* use_;
-  std::vector<Reference> array_;
+  std::uint32_t size_;
+  RawArray<Reference> array_;  ///< with room for parts
   float root_area_ = 0;
   tbb::enumerable_thread_specific<FragmentDivider> dividers_;
+  tbb::enumerable_thread_specific<Sink> sinks_;
 };
 
 Tree build_spatial(const SpatialOptions& options, BuildInput input) {

@@ -137,44 +137,69 @@ void find_best(const FragmentSet& set, int first_axis, int last_axis, std::uint3
   best = by_area;
 }
 
+/// Bins filled by the kernel, and how many of their references are seen.
+std::array<AxisBins, 3> bins_for_models(const FragmentSet& set, const Slabs& slabs, const BinRows& rows) {
+  std::array<AxisBins, 3> axes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t b = 0; b < rows.bins; ++b) {
+      Bin& bin = axes[axis][b];
+      bin = {};
+      bin.box = rows.boxes[axis * rows.stride + b].box();
+      bin.entries = bin.exits = rows.counts[axis * rows.stride + b];
+    }
+  }
+  for (const Reference& reference : set.references) {
+    if (reference.seen == 0) continue;
+    const Box4 box = box4(reference);
+    const Int4 at = slabs(box.lower + box.upper);
+    for (int axis = 0; axis < 3; ++axis) {
+      Bin& bin = axes[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at[axis])];
+      bin.seen_exits = ++bin.seen_entries;
+    }
+  }
+  return axes;
+}
+
 }  // namespace
 
-Slabs::Slabs(const Box4& box, std::uint32_t count) : origin_(box.lower) {
+Slabs::Slabs(const Box4& box, std::uint32_t count) {
+  scale_.origin = box.lower;
   const auto bins = static_cast<float>(count);
   const Float4 extent = box.upper - box.lower;
   for (int axis = 0; axis < 3; ++axis) {
     const float scale = bins / extent[axis];
-    scale_[axis] = scale < std::numeric_limits<float>::infinity() ? scale : 0;
+    scale_.scale[axis] = scale < std::numeric_limits<float>::infinity() ? scale : 0;
     width_[axis] = extent[axis] / bins;
-    last_[axis] = bins - 1;
+    scale_.last[axis] = bins - 1;
   }
 }
 
 std::int32_t Slabs::operator()(float at, int axis) const {
-  const float bin = (at - origin_[axis]) * scale_[axis];
-  return static_cast<std::int32_t>(std::max(std::min(bin, last_[axis]), 0.0f));
+  const float bin = (at - scale_.origin[axis]) * scale_.scale[axis];
+  return static_cast<std::int32_t>(std::max(std::min(bin, scale_.last[axis]), 0.0f));
 }
 
 Split find_object_split(const FragmentSet& set, std::uint32_t bins, LeafPrice price) {
   Split best;
   best.slabs = Slabs(set.centers, bins);
-  std::array<AxisBins, 3> axes;
-  for (AxisBins& axis : axes) std::fill_n(axis.begin(), bins, Bin{});
-  for (const Reference& reference : set.references) {
-    const Box4 box = box4(reference);
-    const Int4 bin = best.slabs(box.lower + box.upper);
-    for (int axis = 0; axis < 3; ++axis) {
-      Bin& at = axes[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bin[axis])];
-      at.box.grow(box);
-      ++at.entries;
-      if (set.model && reference.seen != 0) ++at.seen_entries;
-    }
+  GrownBox boxes[3 * max_spatial_bins];
+  std::uint32_t counts[3 * max_spatial_bins];
+  const BinRows rows{boxes, counts, bins, bins};
+  fill_bins(set.references, best.slabs.scale(), rows);
+  if (set.model) {
+    const std::array<AxisBins, 3> axes = bins_for_models(set, best.slabs, rows);
+    const auto bins_of = [&](int axis) -> const AxisBins& { return axes[static_cast<std::size_t>(axis)]; };
+    find_best(set, 0, 2, bins, bins_of, price, best);
+    return best;
   }
-  for (AxisBins& row : axes) {
-    for (std::uint32_t b = 0; b < bins; ++b) row[b].exits = row[b].entries, row[b].seen_exits = row[b].seen_entries;
-  }
-  const auto bins_of = [&](int axis) -> const AxisBins& { return axes[static_cast<std::size_t>(axis)]; };
-  find_best(set, 0, 2, bins, bins_of, price, best);
+  const BinBorder border = cheapest_border(rows, price.shift);
+  best.cost = border.cost;
+  best.axis = border.axis;
+  best.border = border.border;
+  best.left = border.left;
+  best.right = border.right;
+  best.left_count = border.left_count;
+  best.right_count = border.right_count;
   return best;
 }
 

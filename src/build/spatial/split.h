@@ -3,13 +3,14 @@
 #include <limits>
 #include <span>
 
+#include "build/bin_kernels.h"
 #include "build/build_input.h"
 #include "build/float4.h"
 #include "cost/cost_model.h"
 
 namespace boxwood {
 
-inline constexpr std::uint32_t max_spatial_bins = 64;
+inline constexpr std::uint32_t max_spatial_bins = max_swept_bins;
 
 /// References to be divided, with the boxes around them and around their doubled centres.
 struct FragmentSet {
@@ -35,15 +36,20 @@ class Slabs {
   Slabs() = default;
   Slabs(const Box4& box, std::uint32_t count);
 
+  const BinScale& scale() const { return scale_; }
   Int4 operator()(Float4 point) const {
-    return __builtin_convertvector(max4(min4((point - origin_) * scale_, last_), Float4{}), Int4);
+    const Float4 bin = (point - scale_.origin) * scale_.scale;
+    return __builtin_convertvector(max4(min4(bin, scale_.last), Float4{}), Int4);
   }
   std::int32_t operator()(float at, int axis) const;
   /// Border between the bins index - 1 and index.
-  float border(std::int32_t index, int axis) const { return origin_[axis] + width_[axis] * static_cast<float>(index); }
+  float border(std::int32_t index, int axis) const {
+    return scale_.origin[axis] + width_[axis] * static_cast<float>(index);
+  }
 
  private:
-  Float4 origin_{}, scale_{}, width_{}, last_{};
+  BinScale scale_;
+  Float4 width_{};
 };
 
 /// Where to divide a set: between the bins border - 1 and border of `axis`. No split: `cost` is infinite.

@@ -8,6 +8,7 @@
 
 #include "boxwood/error.h"
 #include "layout/compressed/quantize.h"
+#include "layout/simd/tree_pieces.h"
 
 namespace boxwood {
 namespace {
@@ -170,7 +171,7 @@ QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   out.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   out.view = quantized_view(out.nodes.data(), out.primitives.data(), out.positions, out.triangles);
   out.view.reach = tree.empty() ? 0 : reach_of_box(out.bounds);
-  out.view.stack = stack_need(tree);
+  out.view.stack = needs_of(tree).stack;
   out.view.out_of_cache = out.bytes() + mesh.positions.size() * sizeof(Vec3) > small_tree_bytes;
   return out;
 }

@@ -1,29 +1,20 @@
 #include "layout/simd/arena.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <utility>
 
 #include "boxwood/error.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
-namespace {
-
-constexpr std::size_t huge_page = std::size_t{1} << 21;
-
-}  // namespace
 
 Arena::Arena(std::size_t bytes) : bytes_(bytes) {
   if (bytes == 0) return;
-  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) {
-    throw Error(
-        fmt::format("no {} bytes of memory for the acceleration structure; free some or take a compact layout", bytes));
-  }
-  // A hint: without huge pages everything works, only slower.
-  if (bytes >= huge_page) madvise(memory, bytes, MADV_HUGEPAGE);
-  data_ = static_cast<std::byte*>(memory);
+  data_ = static_cast<std::byte*>(map_zeroed(bytes));
+  if (data_) return;
+  throw Error(
+      fmt::format("no {} bytes of memory for the acceleration structure; free some or take a compact layout", bytes));
 }
 
 Arena::Arena(Arena&& other) noexcept
@@ -36,7 +27,7 @@ Arena& Arena::operator=(Arena&& other) noexcept {
 }
 
 Arena::~Arena() {
-  if (data_) munmap(data_, bytes_);
+  if (data_) unmap_zeroed(data_, bytes_);
 }
 
 }  // namespace boxwood

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "boxwood/box.h"
@@ -52,13 +53,12 @@ struct WideArena {
 /// Most stack entries the kernels have room for; a deeper tree is not for them.
 inline constexpr std::uint32_t wide_stack_limit = 448;
 
-/// Entries a depth-first traversal of `tree` can have on its stack at once. O(nodes).
-std::uint32_t stack_need(const Tree& tree);
-
-/// Encodes a tree of arity up to N over triangles of `mesh`: subtrees are contiguous, siblings adjacent, small leaves
-/// right behind their siblings. Parallel; O(n); needs 8 bytes per tree node on top of the result.
+/// Encodes a tree over triangles of `mesh`: subtrees are contiguous, siblings adjacent, small leaves right behind their
+/// siblings. Nothing when the kernels cannot trace it: a node has more than N children or a fixed order, or the tree is
+/// deeper than wide_stack_limit. Two walks of the tree, each parallel; O(n), and no memory that grows with n but the
+/// result.
 template <int N, int L>
-WideArena encode_wide(const Tree& tree, const Mesh& mesh);
+std::optional<WideArena> encode_wide(const Tree& tree, const Mesh& mesh);
 
 /// Writes the same tree with other boxes, and the mesh with other positions, into the arena that was made for it.
 template <int N, int L>

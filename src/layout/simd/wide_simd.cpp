@@ -1,12 +1,10 @@
 #include "layout/simd/wide_simd.h"
 
-#include <fmt/format.h>
+#include <optional>
+#include <utility>
 
-#include <algorithm>
-#include <ranges>
-
-#include "boxwood/error.h"
 #include "layout/simd/simd_layout.h"
+#include "layout/simd/tree_pieces.h"
 #include "layout/simd/wide_arena.h"
 #include "layout/simd/wide_kernels.h"
 
@@ -37,29 +35,29 @@ struct SavableArena : WideArena {
 
 template <int N, int L>
 std::shared_ptr<const Layout> make(const Tree& tree, const Mesh& mesh) {
-  SavableArena<N, L> arena{encode_wide<N, L>(tree, mesh), static_cast<std::uint32_t>(mesh.triangles.size())};
+  std::optional<WideArena> encoded = encode_wide<N, L>(tree, mesh);
+  if (!encoded) return {};
+  SavableArena<N, L> arena{std::move(*encoded), static_cast<std::uint32_t>(mesh.triangles.size())};
   return std::make_shared<SimdLayout<SavableArena<N, L>>>(std::move(arena), wide_kernels<N, L>());
+}
+
+bool has_kernels(std::uint32_t width, const Contents& contents, const TraceOptions& trace) {
+  if (width != 4 && width != 8 && width != 16) return false;
+  if (!contents.mesh || trace != TraceOptions{}) return false;
+  return contents.mesh->triangles.size() < more_blocks;
 }
 
 }  // namespace
 
 bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace) {
-  if (width != 4 && width != 8 && width != 16) return false;
-  if (!contents.mesh || trace != TraceOptions{}) return false;
-  if (contents.mesh->triangles.size() >= more_blocks) return false;
-  const bool nodes_fit = std::ranges::all_of(tree.nodes, [&](const Tree::Node& node) {
-    return node.is_leaf() || (node.count <= width && node.fixed_order == 0);
-  });
-  return nodes_fit && stack_need(tree) <= wide_stack_limit;
+  if (!has_kernels(width, contents, trace)) return false;
+  const WalkNeeds needs = needs_of(tree);
+  return needs.widest <= width && !needs.fixed_order && needs.stack <= wide_stack_limit;
 }
 
-std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents) {
-  if (!simd_wide_supports(width, tree, contents, TraceOptions{})) {
-    throw UsageError(
-        fmt::format("the SIMD kernels cannot trace this tree at width {}; use the scalar wide layout, which "
-                    "takes any width, depth, order and contents",
-                    width));
-  }
+std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents,
+                                               const TraceOptions& trace) {
+  if (!has_kernels(width, contents, trace)) return {};
   if (width == 4) return make<4, 4>(tree, *contents.mesh);
   if (width == 8) return make<8, 4>(tree, *contents.mesh);
   return make<16, 8>(tree, *contents.mesh);

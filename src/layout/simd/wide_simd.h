@@ -14,9 +14,10 @@ namespace boxwood {
 /// fixed order or more than `width` children, and a tree that is not absurdly deep. O(nodes).
 bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace);
 
-/// Encodes a tree for which simd_wide_supports() holds. Answers are bit-identical to every other layout's.
-/// Counted queries count real children and real triangles, as every layout does; only the root's own box, which other
-/// layouts test first, is not tested here. Throws UsageError for anything unsupported, Error when memory runs out.
-std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents);
+/// Null where simd_wide_supports() does not hold, which is found out on the way. Answers are bit-identical to every
+/// other layout's. Counted queries count real children and real triangles, as every layout does; only the root's own
+/// box, which other layouts test first, is not tested here. Throws Error when memory runs out.
+std::shared_ptr<const Layout> encode_simd_wide(std::uint32_t width, const Tree& tree, const Contents& contents,
+                                               const TraceOptions& trace);
 
 }  // namespace boxwood

@@ -75,7 +75,7 @@ struct ChooseWide {
 
 std::shared_ptr<const Layout> encode(const WideOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
-  if (simd_wide_supports(options.k, tree, contents, trace)) return encode_simd_wide(options.k, tree, contents);
+  if (auto layout = encode_simd_wide(options.k, tree, contents, trace)) return layout;
   const auto nodes_of = [&](const Tree& t) { return encode_wide_nodes(t, options.k); };
   return encode_level(std::move(tree), contents, trace, nodes_of, ChooseWide{});
 }

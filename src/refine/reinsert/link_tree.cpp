@@ -1,6 +1,7 @@
 #include "refine/reinsert/link_tree.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "tree/assemble.h"
@@ -75,9 +76,9 @@ Tree relink(const LinkTree& links, const Tree& tree) {
     const Child child = root ? Child{0} : links.child(edge);
     if (child.is_leaf()) {
       node = tree.nodes[child.number()];
-      const auto first = tree.references.begin() + node.first;
+      const auto leaf = std::span(tree.references).subspan(node.first, node.count);
       node.first = static_cast<std::uint32_t>(references.size());
-      references.insert(references.end(), first, first + node.count);
+      for (const std::uint32_t reference : leaf) references.push_back(reference);
       return;
     }
     const LinkTree::Inner& inner = links.inner[child.number()];
@@ -85,7 +86,8 @@ Tree relink(const LinkTree& links, const Tree& tree) {
     const Edge first = child.number() * 2 + (axis.descending ? 1 : 0);
     node.bounds = root ? links.root_bounds : links.bounds(edge);
     node.axis = axis.axis & 3;
-    children = {first, LinkTree::sibling(first)};
+    children.push_back(first);
+    children.push_back(LinkTree::sibling(first));
   };
   Tree out = assemble(LinkTree::no_edge, tree.nodes.size(), tree.references.size(), [&] { return write; });
   out.clipped_leaves = tree.clipped_leaves;
