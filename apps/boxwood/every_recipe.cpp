@@ -57,11 +57,12 @@ Recipe on_fitting_layout(const std::string& stages) {
   throw Error("no layout is registered; this build of boxwood cannot trace");
 }
 
-/// One `trace(option=word)` for each word that is not the default.
+/// One `trace(option=word)` for each word that is not the default, but for the precision, which few layouts take.
 std::vector<std::string> ways_to_trace() {
   std::vector<std::string> out;
   for (const Stage* stage : stages_of(StageKind::trace)) {
     for (const Option& option : stage->options) {
+      if (option.name == "precision") continue;
       for (const std::string& word : words(option)) {
         if (word != option.get(stage->defaults))
           out.push_back(fmt::format("{}({}={})", stage->name, option.name, word));

@@ -13,11 +13,14 @@
 #include "every_recipe.h"
 #include "exit_code.h"
 #include "expected_view.h"
+#include "recipe/capabilities.h"
 #include "report/json.h"
 #include "report/number_text.h"
 #include "report/progress_bar.h"
 #include "report/table.h"
 #include "trace/brute_force.h"
+#include "trace/precise_brute_force.h"
+#include "trace/widened.h"
 #include "workspace.h"
 
 namespace boxwood::cli {
@@ -98,6 +101,20 @@ void answer_by_brute_force(const Scene& scene, std::vector<Question>& questions,
   }
 }
 
+/// What testing every triangle in double precision says, rounded as structures round it.
+std::vector<Question> answered_in_double(const Scene& scene, std::vector<Question> questions) {
+  std::vector<DoubleVec3> vertices;
+  for (const Vec3& position : scene.meshes[0].positions) vertices.push_back(widened(position));
+  const PreciseBruteForce truth(vertices, scene.meshes[0].triangles);
+  for (Question& question : questions) {
+    tbb::parallel_for(std::size_t{0}, question.rays.size(), [&](std::size_t i) {
+      const Hit hit = rounded(truth.closest_hit(widened(question.rays[i])));
+      question.hits[i].assign(hit.valid() ? 1 : 0, hit);
+    });
+  }
+  return questions;
+}
+
 /// Peers compute t in their own way.
 bool same(const Hit& a, const Hit& b, bool exact) {
   if (exact) return a == b;
@@ -117,7 +134,7 @@ std::string ray_text(const Ray& ray) {
 /// Batch and single-ray queries, closest and any hit, and, of our own layouts, all hits; each ray with a wrong answer
 /// counts once.
 void check_answers(const Structure& structure, const Question& question, RecipeVerdict& verdict) {
-  const bool exact = !is_peer(structure.recipe());
+  const bool exact = !is_peer(structure.recipe()), all = answers_exactly(structure.recipe().stages());
   std::vector<Hit> hits(question.rays.size());
   std::vector<std::uint8_t> blocked(question.rays.size());
   structure.closest_hits(question.rays, hits);
@@ -125,7 +142,7 @@ void check_answers(const Structure& structure, const Question& question, RecipeV
   for (std::size_t i = 0; i < question.rays.size(); ++i) {
     const Ray& ray = question.rays[i];
     const Hit truth = question.closest(i);
-    const bool all_right = !exact || structure.all_hits(ray) == question.hits[i];
+    const bool all_right = !all || structure.all_hits(ray) == question.hits[i];
     const bool right = all_right && same(hits[i], truth, exact) && same(structure.closest_hit(ray), truth, exact) &&
                        (blocked[i] != 0) == truth.valid() && structure.any_hit(ray) == truth.valid();
     if (right) continue;
@@ -160,7 +177,11 @@ std::vector<RecipeVerdict> check_recipes(const Scene& scene, const std::vector<R
     const Structure structure = build(scene, recipe, {.threads = options.common.threads, .use = pointer_to(use)});
     RecipeVerdict verdict;
     verdict.recipe = recipe.text();
-    for (const Question& question : questions) check_answers(structure, question, verdict);
+    std::vector<Question> in_double;
+    if (precision_of(recipe.stages()) == Precision::double_test) in_double = answered_in_double(scene, questions);
+    for (const Question& question : in_double.empty() ? questions : in_double) {
+      check_answers(structure, question, verdict);
+    }
     check_leaks(structure, inside.rays, verdict);
     verdicts.push_back(std::move(verdict));
     report_progress(&progress, static_cast<double>(verdicts.size()) / static_cast<double>(recipes.size()), "checking");

@@ -8,6 +8,7 @@
 #include "boxwood/hit_filter.h"    // IWYU pragma: export
 #include "boxwood/hit_lists.h"     // IWYU pragma: export
 #include "boxwood/moving.h"        // IWYU pragma: export
+#include "boxwood/precise.h"       // IWYU pragma: export
 #include "boxwood/ray.h"           // IWYU pragma: export
 #include "boxwood/ray_set.h"       // IWYU pragma: export
 #include "boxwood/recipe.h"        // IWYU pragma: export

@@ -12,7 +12,9 @@ Stage trace_stage() {
           .flag("cull", &TraceOptions::cull, "skip what lies behind the closest hit so far, or outside t_near…t_far")
           .choice("mode", &TraceOptions::mode, {"iterative", "recursive"}, "own stack, or the program's")
           .flag("simd", &TraceOptions::simd,
-                "several boxes and triangles per instruction, where the layout has such a kernel"),
+                "several boxes and triangles per instruction, where the layout has such a kernel")
+          .choice("precision", &TraceOptions::precision, {"single", "double"},
+                  "of the triangle test; double for wide and compressed of up to 16 children, walked by default"),
       static_cast<std::uint32_t (*)(const TraceOptions&)>(nullptr));
 }
 

@@ -15,6 +15,7 @@
 #include "measure/clock.h"
 #include "measure/interleave.h"
 #include "measure/trace_rays.h"
+#include "recipe/capabilities.h"
 #include "recipe/stage.h"
 
 namespace boxwood {
@@ -94,6 +95,7 @@ RecipeRow describe_build(const Structure& structure, std::span<const double> mil
   RecipeRow row;
   row.recipe = structure.recipe().text();
   row.peer = is_peer(structure.recipe());
+  row.exact = answers_exactly(structure.recipe().stages());
   row.build_ms = estimate_median(milliseconds);
   row.bytes = report.bytes;
   if (report.primitives > 0) {
@@ -176,7 +178,7 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
     if (i >= recipes.size()) comparison.rows.back().file = settings.saved[i - recipes.size()].string();
   }
 
-  const auto ours = std::ranges::find(comparison.rows, false, &RecipeRow::peer);
+  const auto ours = std::ranges::find(comparison.rows, true, &RecipeRow::exact);
   const std::size_t reference = ours == comparison.rows.end() ? 0 : ours - comparison.rows.begin();
   const double share = (1 - share_of_building) / static_cast<double>(ray_sets.size());
   for (std::size_t s = 0; s < ray_sets.size(); ++s) {
@@ -184,7 +186,7 @@ Comparison compare_in_arena(const Scene& scene, std::span<const Recipe> recipes,
     Answers expected(ray_sets[s]);
     trace_rays(*structures[reference], ray_sets[s], expected);
     for (std::size_t i = 0; i < structures.size(); ++i) {
-      const bool exact = !comparison.rows[i].peer && !comparison.rows[reference].peer;
+      const bool exact = comparison.rows[i].exact && comparison.rows[reference].exact;
       comparison.rows[i].rays.push_back(count(*structures[i], ray_sets[s], expected, exact));
       report_progress(progress, begin, "checking");
     }

@@ -44,6 +44,7 @@ struct RayKindRow {
 struct RecipeRow {
   std::string recipe;  ///< canonical text
   std::string file;    ///< of a saved structure; empty: it was built
+  bool exact = true;   ///< its hits are those of testing every triangle in single precision, to the bit
   bool peer = false;   ///< not ours: its hits may differ from ours in the last bits
   Estimate build_ms;   ///< wall time
   std::size_t bytes = 0;

@@ -4,6 +4,7 @@
 
 #include "options/call.h"
 #include "options/suggest.h"
+#include "recipe/capabilities.h"
 #include "recipe/stage.h"
 
 namespace boxwood {
@@ -94,6 +95,14 @@ void check_cells(const std::vector<StageCall>& calls) {
   }
 }
 
+void check_precision(const std::vector<StageCall>& calls) {
+  if (precision_of(calls) == Precision::single_test || walks_wide_nodes(calls)) return;
+  throw UsageError(
+      "trace(precision=double) goes with the layouts wide(k) and compressed(k) of up to 16 children and no other "
+      "option "
+      "of 'trace'; change the layout, as in 'binned > wide(8) > trace(precision=double)'");
+}
+
 /// Binary trees for wider layouts are collapsed to their width; trees too wide for their layout are refused.
 void fit_arity(std::vector<StageCall>& calls) {
   if (calls.front().stage->kind == StageKind::peer) return;
@@ -164,6 +173,7 @@ Recipe Recipe::parse(std::string_view written) {
   }
   check_order(calls);
   check_cells(calls);
+  check_precision(calls);
   fit_arity(calls);
   return Recipe(std::move(calls));
 }

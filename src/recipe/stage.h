@@ -64,6 +64,8 @@ struct Stage {
 
   BuilderFunction build;
   RefinementFunction refine;
+  /// Of a refinement of how instances are placed: how many references to their parts there may be for each.
+  std::function<float(const std::any& options)> references_per_instance;
   LayoutFunction encode;
   PeerFunction trace_peer;
   /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set
@@ -73,7 +75,8 @@ struct Stage {
   std::function<bool(const std::any& options)> needs_use;
   /// Of a builder: its trees tell the cells of an octree (Tree::cells). Of a layout: it encodes those.
   bool cells = false;
-  /// Of a layout: custom primitives can take its place, in wide nodes (layout/custom).
+  /// Of a layout: custom primitives and triangles in double precision can take its place, in wide nodes (layout/custom,
+  /// layout/precise).
   bool custom = false;
 };
 

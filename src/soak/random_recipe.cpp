@@ -9,6 +9,7 @@
 
 #include "boxwood/error.h"
 #include "cost/registry.h"
+#include "recipe/capabilities.h"
 #include "recipe/stage.h"
 
 namespace boxwood {
@@ -87,7 +88,8 @@ Recipe random_recipe(Random& random) {
   constexpr int attempts = 1000;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     try {
-      return Recipe::parse(random_text(random));
+      const Recipe recipe = Recipe::parse(random_text(random));
+      if (answers_exactly(recipe.stages())) return recipe;
     } catch (const UsageError&) {  // they do not fit
     }
   }

@@ -20,16 +20,11 @@ namespace boxwood {
 namespace {
 
 void check_custom_recipe(const Recipe& recipe) {
-  for (const StageCall& call : recipe.stages()) {
-    const bool refused = answers_queries(*call.stage) && !has_capability(*call.stage, Capability::custom);
-    const bool walks =
-        call.stage->kind == StageKind::trace && std::any_cast<const TraceOptions&>(call.options) != TraceOptions{};
-    if (!refused && !walks) continue;
-    throw UsageError(
-        fmt::format("'{}' cannot trace custom primitives: they need the layout wide(k) or compressed(k) "
-                    "under the default walk",
-                    recipe.text()));
-  }
+  if (walks_wide_nodes(recipe.stages()) && precision_of(recipe.stages()) == Precision::single_test) return;
+  throw UsageError(
+      fmt::format("'{}' cannot trace custom primitives: they need the layout wide(k) or compressed(k) "
+                  "under the default walk",
+                  recipe.text()));
 }
 
 bool is_usable(const Box& box) {

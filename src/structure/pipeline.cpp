@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "layout/precise/precise_level.h"
 #include "structure/mesh_geometry.h"
 
 namespace boxwood {
@@ -35,7 +36,22 @@ Tree Pipeline::tree(BuildInput input) const {
   return tree;
 }
 
+float Pipeline::references_per_instance() const {
+  for (const StageCall* call : refinements_) {
+    if (call->stage->references_per_instance) return call->stage->references_per_instance(call->options);
+  }
+  return 1;
+}
+
+void Pipeline::check_places_whole() const {
+  if (references_per_instance() == 1) return;
+  throw UsageError(
+      "'rebraid' opens the instances of a scene while it is built; structures that are placed or move stay whole, so "
+      "leave it out here");
+}
+
 std::shared_ptr<const Layout> Pipeline::encode(Tree tree, const Contents& contents) const {
+  if (trace_.precision == Precision::double_test) return encode_precise(std::move(tree), contents);
   return layout_->stage->encode(layout_->options, std::move(tree), contents, trace_);
 }
 

@@ -16,6 +16,10 @@ class Pipeline {
 
   /// Builder and refinements.
   Tree tree(BuildInput input) const;
+  /// How many references to parts of meshes there may be per instance; 1: meshes are placed whole.
+  float references_per_instance() const;
+  /// Throws UsageError unless that is 1: for those who place what is built already, or moves.
+  void check_places_whole() const;
   std::shared_ptr<const Layout> encode(Tree tree, const Contents& contents) const;
 
  private:

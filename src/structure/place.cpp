@@ -7,6 +7,7 @@
 
 #include "boxwood/structure.h"
 #include "layout/layout.h"
+#include "recipe/capabilities.h"
 #include "recipe/stage.h"
 #include "structure/instance_paths.h"
 #include "structure/mesh_geometry.h"
@@ -28,6 +29,12 @@ void check_placeable(std::span<const Structure> parts, std::span<const Instance>
     throw UsageError("a peer builds scenes by itself and cannot place structures; use a layout of our own");
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (precision_of(parts[i].recipe().stages()) == Precision::double_test) {
+      throw UsageError(
+          fmt::format("part {} is traced in double precision and cannot be placed in another structure, "
+                      "because instances map rays in single",
+                      i));
+    }
     if (!is_peer(parts[i].recipe())) continue;
     throw UsageError(
         fmt::format("part {} was built by the peer '{}' and cannot be placed in another structure; build "
@@ -87,6 +94,7 @@ Structure place(std::span<const Structure> parts, std::span<const Instance> inst
     contents.bottoms = bottoms;
     contents.numbers = paths->first_numbers();
     const Pipeline pipeline(recipe);
+    pipeline.check_places_whole();
     Tree tree = pipeline.tree({instance_references(placed_boxes(parts, instances)), nullptr, nullptr});
     report.nodes += tree.nodes.size();
     if (!tree.empty()) report.bounds = tree.nodes[0].bounds;

@@ -20,6 +20,7 @@ namespace HWY_NAMESPACE {
 
 // Fused where the instruction set has it, the (slow, equally rounded) library function elsewhere: same bits everywhere.
 HWY_INLINE float fused(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+HWY_INLINE double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
 
 /// Plane distances are fused(plane, inverse, -near_offset) and fused(plane, inverse, -far_offset). The two offsets
 /// differ by twice an error bound, which widens every box by 2^-19 of the largest coordinate involved. That is more

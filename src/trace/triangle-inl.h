@@ -16,42 +16,52 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 
 /// a*b - c*d, within 1.5 units in the last place, hence with an exact sign (Jeannerod, Louvet, Muller 2013).
-HWY_INLINE float difference_of_products(float a, float b, float c, float d) {
-  const float cd = c * d;
-  const float error = fused(-c, d, cd);
+template <class Real>
+HWY_INLINE Real difference_of_products(Real a, Real b, Real c, Real d) {
+  const Real cd = c * d;
+  const Real error = fused(-c, d, cd);
   return fused(a, b, -cd) + error;
 }
 
 /// Hit of one triangle: t = weighted z of the sheared vertices. Every SIMD form must compute exactly these expressions.
-struct TriangleHit {
-  float t, v, w, determinant;  // barycentric u = v / determinant, v = w / determinant (weights of vertices 1 and 2)
+template <class Real>
+struct TriangleHitOf {
+  Real t, v, w, determinant;  // barycentric u = v / determinant, v = w / determinant (weights of vertices 1 and 2)
 };
+using TriangleHit = TriangleHitOf<float>;
 
 /// Projected areas below this are too near to the smallest normal float for t to be trusted: such a triangle is seen
 /// edge-on, or its sides are below 1e-15.
 inline constexpr float least_determinant = 0x1p-100f;
+template <class Real>
+inline constexpr Real least_determinant_of = least_determinant;
+/// Likewise; sides below 1e-144.
+template <>
+inline constexpr double least_determinant_of<double> = 0x1p-960;
 
 /// Two-sided. Edges and vertices belong to every triangle that has them, so a ray can not slip between two triangles
 /// that share them. Triangles seen edge-on are missed; their neighbours are not. The range of t is the caller's to
-/// check, with comparisons that NaN fails.
-HWY_INLINE bool hit_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const PreparedRay& ray, TriangleHit& hit) {
+/// check, with comparisons that NaN fails. `ShearedRay` is a PreparedRay, or a PreciseSheared with points in double.
+template <class Point, class ShearedRay, class Real>
+HWY_INLINE bool hit_triangle(const Point& a, const Point& b, const Point& c, const ShearedRay& ray,
+                             TriangleHitOf<Real>& hit) {
   const int kx = ray.kx, ky = ray.ky, kz = ray.kz;
-  const float az = a[kz] - ray.origin[kz], bz = b[kz] - ray.origin[kz], cz = c[kz] - ray.origin[kz];
-  const float ax = fused(-ray.shear_x, az, a[kx] - ray.origin[kx]);
-  const float ay = fused(-ray.shear_y, az, a[ky] - ray.origin[ky]);
-  const float bx = fused(-ray.shear_x, bz, b[kx] - ray.origin[kx]);
-  const float by = fused(-ray.shear_y, bz, b[ky] - ray.origin[ky]);
-  const float cx = fused(-ray.shear_x, cz, c[kx] - ray.origin[kx]);
-  const float cy = fused(-ray.shear_y, cz, c[ky] - ray.origin[ky]);
+  const Real az = a[kz] - ray.origin[kz], bz = b[kz] - ray.origin[kz], cz = c[kz] - ray.origin[kz];
+  const Real ax = fused(-ray.shear_x, az, a[kx] - ray.origin[kx]);
+  const Real ay = fused(-ray.shear_y, az, a[ky] - ray.origin[ky]);
+  const Real bx = fused(-ray.shear_x, bz, b[kx] - ray.origin[kx]);
+  const Real by = fused(-ray.shear_y, bz, b[ky] - ray.origin[ky]);
+  const Real cx = fused(-ray.shear_x, cz, c[kx] - ray.origin[kx]);
+  const Real cy = fused(-ray.shear_y, cz, c[ky] - ray.origin[ky]);
 
-  const float u = difference_of_products(cx, by, cy, bx);
-  const float v = difference_of_products(ax, cy, ay, cx);
-  const float w = difference_of_products(bx, ay, by, ax);
+  const Real u = difference_of_products(cx, by, cy, bx);
+  const Real v = difference_of_products(ax, cy, ay, cx);
+  const Real w = difference_of_products(bx, ay, by, ax);
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
-  const float determinant = (u + v) + w;
-  if (std::fabs(determinant) < least_determinant) return false;
+  const Real determinant = (u + v) + w;
+  if (std::fabs(determinant) < least_determinant_of<Real>) return false;
 
-  const float z = fused(u, az, fused(v, bz, w * cz));
+  const Real z = fused(u, az, fused(v, bz, w * cz));
   hit = {(z / determinant) * ray.scale_z, v, w, determinant};
   return true;
 }
