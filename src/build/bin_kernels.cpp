@@ -124,29 +124,60 @@ HWY_INLINE PointVector LoadPoint(const Float4& point) {
   return out;
 }
 
-void FillBins(std::span<const Reference> references, const BinScale& scale, const BinRows& rows) {
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    for (std::uint32_t b = 0; b < rows.bins; ++b) StoreBox(EmptyBox(), rows.boxes[axis * rows.stride + b].lanes);
-    std::fill_n(rows.counts + axis * rows.stride, rows.bins, 0u);
-  }
-  const PointVector origin = LoadPoint(scale.origin), factor = LoadPoint(scale.scale), last = LoadPoint(scale.last);
-  const auto stride = static_cast<std::int32_t>(rows.stride);
-  for (const Reference& reference : references) {
+/// Adds references to bins.
+class BinFiller {
+ public:
+  HWY_INLINE BinFiller(const BinScale& scale, std::uint32_t* counts)
+      : counts_(counts),
+        origin_(LoadPoint(scale.origin)),
+        scale_(LoadPoint(scale.scale)),
+        last_(LoadPoint(scale.last)) {}
+
+  HWY_INLINE void Add(const Reference& reference, GrownBox* boxes) const {
     const BoxVector corners = LoadCorners(reference);
     const PointVector center = SumOfHalves(corners);
     alignas(16) std::int32_t bins[4];
     for (std::size_t p = 0; p < point_parts; ++p) {
-      const auto at = hn::Mul(hn::Sub(center.parts[p], origin.parts[p]), factor.parts[p]);
-      const auto inside = hn::Max(hn::Min(at, last.parts[p]), hn::Zero(PointTag()));
+      const auto at = hn::Mul(hn::Sub(center.parts[p], origin_.parts[p]), scale_.parts[p]);
+      const auto inside = hn::Max(hn::Min(at, last_.parts[p]), hn::Zero(PointTag()));
       hn::Store(hn::ConvertTo(PlaceTag(), inside), PlaceTag(), bins + p * point_lanes);
     }
     const BoxVector box = NegateLower(corners);
-    for (std::int32_t axis = 0; axis < 3; ++axis) {
-      const auto place = static_cast<std::size_t>(axis * stride + bins[axis]);
-      float* const lanes = rows.boxes[place].lanes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t place = 4 * static_cast<std::size_t>(static_cast<std::uint32_t>(bins[axis])) + axis;
+      float* const lanes = boxes[place].lanes;
       StoreBox(Unite(LoadBox(lanes), box), lanes);
-      ++rows.counts[place];
+      ++counts_[place];
     }
+  }
+
+ private:
+  std::uint32_t* counts_;
+  PointVector origin_, scale_, last_;
+};
+
+void FillBins(std::span<const Reference> references, const BinScale& scale, const BinRows& rows) {
+  // Neighbours often fall into the same bin, and a box that has just been stored is long in coming back. So every
+  // second reference goes to bins of its own, unless they are so few that emptying those costs more.
+  constexpr std::size_t few = 64;
+  const std::uint32_t places = 4 * rows.bins;
+  const bool apart = references.size() >= few;
+  GrownBox more_boxes[4 * max_bins_in_rows];
+  GrownBox* const second_boxes = apart ? more_boxes : rows.boxes;
+  for (std::uint32_t b = 0; b < places; ++b) {
+    StoreBox(EmptyBox(), rows.boxes[b].lanes);
+    StoreBox(EmptyBox(), second_boxes[b].lanes);
+  }
+  std::fill_n(rows.counts, places, 0u);
+  const BinFiller filler(scale, rows.counts);
+  const std::size_t pairs = references.size() / 2;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    filler.Add(references[2 * i], rows.boxes);
+    filler.Add(references[2 * i + 1], second_boxes);
+  }
+  if (references.size() % 2 != 0) filler.Add(references.back(), rows.boxes);
+  for (std::uint32_t b = 0; b < places && apart; ++b) {
+    StoreBox(Unite(LoadBox(rows.boxes[b].lanes), LoadBox(second_boxes[b].lanes)), rows.boxes[b].lanes);
   }
 }
 
@@ -156,78 +187,107 @@ HWY_INLINE Box4 ToBox4(const BoxVector& grown) {
   return out;
 }
 
-using Borders = hn::CappedTag<float, 8>;
+/// One side of a border on each of the three axes.
+struct Side {
+  BoxVector boxes[3];
+  hn::Vec<PlaceTag> counts[point_parts];
 
-/// Sides of the borders of one axis: border b lies before bin b.
-struct BorderSides {
-  alignas(64) float extents[4 * max_swept_bins];
-  alignas(64) std::uint32_t counts[max_swept_bins];
-
-  HWY_INLINE void Set(std::uint32_t border, const BoxVector& box, std::uint32_t count) {
-    const PointVector extent = SumOfHalves(box);
-    for (std::size_t p = 0; p < point_parts; ++p) {
-      hn::Store(extent.parts[p], PointTag(), extents + 4 * border + p * point_lanes);
-    }
-    counts[border] = count;
+  HWY_INLINE void Clear() {
+    for (BoxVector& box : boxes) box = EmptyBox();
+    for (auto& count : counts) count = hn::Zero(PlaceTag());
   }
-  HWY_INLINE hn::Vec<Borders> Cost(std::uint32_t border, std::uint32_t shift) const {
-    const Borders floats;
-    const hn::RebindToSigned<Borders> ints;
-    hn::Vec<Borders> x, y, z, unused;
-    hn::LoadInterleaved4(floats, extents + 4 * border, x, y, z, unused);
-    const auto area = hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
-    const auto count = hn::Load(ints, reinterpret_cast<const std::int32_t*>(counts) + border);
-    const auto rounded = hn::Add(count, hn::Set(ints, (1 << shift) - 1));
-    const auto cost = hn::Mul(area, hn::ConvertTo(floats, hn::ShiftRightSame(rounded, static_cast<int>(shift))));
-    return hn::IfThenElse(hn::RebindMask(floats, hn::Eq(count, hn::Zero(ints))), hn::Set(floats, Box4::infinity), cost);
+  HWY_INLINE void Grow(const BinRows& rows, std::uint32_t bin) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes[axis] = Unite(boxes[axis], LoadBox(rows.boxes[4 * bin + axis].lanes));
+    }
+    const auto* from = reinterpret_cast<const std::int32_t*>(rows.counts) + 4 * bin;
+    for (std::size_t p = 0; p < point_parts; ++p) {
+      counts[p] = hn::Add(counts[p], hn::LoadU(PlaceTag(), from + p * point_lanes));
+    }
   }
 };
 
-/// Costs of the borders of one axis. Of those that nothing lies on one side of, infinite.
-HWY_INLINE void SweepAxis(const GrownBox* boxes, const std::uint32_t* counts, std::uint32_t bins,
-                          std::uint32_t block_shift, float* costs) {
-  BorderSides left, right;
-  BoxVector box = EmptyBox();
-  std::uint32_t count = 0;
-  for (std::uint32_t b = 1; b < bins; ++b) {
-    box = Unite(box, LoadBox(boxes[b - 1].lanes));
-    left.Set(b, box, count += counts[b - 1]);
+/// Half areas, one per axis.
+HWY_INLINE PointVector HalfAreas(const BoxVector (&boxes)[3]) {
+  PointVector out;
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const PointVector e = SumOfHalves(boxes[axis]);
+    out.parts[axis] = hn::Add(hn::Add(hn::Mul(e.parts[0], e.parts[1]), hn::Mul(e.parts[1], e.parts[2])),
+                              hn::Mul(e.parts[2], e.parts[0]));
   }
-  box = EmptyBox();
-  count = 0;
-  for (std::uint32_t b = bins - 1; b > 0; --b) {
-    box = Unite(box, LoadBox(boxes[b].lanes));
-    right.Set(b, box, count += counts[b]);
+  out.parts[3] = hn::Zero(PointTag());
+#else
+  const PointTag d;
+  const auto first = SumOfHalves(boxes[0]).parts[0], second = SumOfHalves(boxes[1]).parts[0];
+  const auto third = SumOfHalves(boxes[2]).parts[0], zero = hn::Zero(d);
+  const auto low = hn::InterleaveLower(d, first, second), high = hn::InterleaveUpper(d, first, second);
+  const auto low_third = hn::InterleaveLower(d, third, zero), high_third = hn::InterleaveUpper(d, third, zero);
+  const auto x = hn::ConcatLowerLower(d, low_third, low), y = hn::ConcatUpperUpper(d, low_third, low);
+  const auto z = hn::ConcatLowerLower(d, high_third, high);
+  out.parts[0] = hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
+#endif
+  return out;
+}
+
+/// Area times price, one per axis. Where there is nothing, infinite.
+HWY_INLINE PointVector Costs(const Side& side, std::uint32_t block_shift) {
+  const PlaceTag ints;
+  PointVector out = HalfAreas(side.boxes);
+  for (std::size_t p = 0; p < point_parts; ++p) {
+    const auto rounded = hn::Add(side.counts[p], hn::Set(ints, (1 << block_shift) - 1));
+    const auto blocks = hn::ConvertTo(PointTag(), hn::ShiftRightSame(rounded, static_cast<int>(block_shift)));
+    const auto none = hn::RebindMask(PointTag(), hn::Eq(side.counts[p], hn::Zero(ints)));
+    out.parts[p] = hn::IfThenElse(none, hn::Set(PointTag(), Box4::infinity), hn::Mul(out.parts[p], blocks));
   }
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(Borders()));
-  left.Set(0, EmptyBox(), 0);
-  right.Set(0, EmptyBox(), 0);
-  for (std::uint32_t b = bins; b % lanes != 0; ++b) left.Set(b, EmptyBox(), 0), right.Set(b, EmptyBox(), 0);
-  for (std::uint32_t b = 0; b < bins; b += lanes) {
-    hn::Store(hn::Add(left.Cost(b, block_shift), right.Cost(b, block_shift)), Borders(), costs + b);
-  }
+  return out;
 }
 
 BinBorder CheapestBorder(const BinRows& rows, std::uint32_t block_shift) {
-  BinBorder best;
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    alignas(64) float costs[max_swept_bins];
-    SweepAxis(rows.boxes + axis * rows.stride, rows.counts + axis * rows.stride, rows.bins, block_shift, costs);
-    for (std::uint32_t b = 1; b < rows.bins; ++b) {
-      if (!(costs[b] < best.cost)) continue;
-      best.cost = costs[b];
-      best.axis = static_cast<std::int32_t>(axis);
-      best.border = static_cast<std::int32_t>(b);
+  PointVector right_costs[max_bins_in_rows];
+  Side right;
+  right.Clear();
+  for (std::uint32_t b = rows.bins - 1; b > 0; --b) {
+    right.Grow(rows, b);
+    right_costs[b] = Costs(right, block_shift);
+  }
+  // The first of the cheapest borders of each axis.
+  PointVector least, border;
+  for (std::size_t p = 0; p < point_parts; ++p) {
+    least.parts[p] = hn::Set(PointTag(), Box4::infinity);
+    border.parts[p] = hn::Zero(PointTag());
+  }
+  Side left;
+  left.Clear();
+  for (std::uint32_t b = 1; b < rows.bins; ++b) {
+    left.Grow(rows, b - 1);
+    const PointVector left_costs = Costs(left, block_shift);
+    for (std::size_t p = 0; p < point_parts; ++p) {
+      const auto cost = hn::Add(left_costs.parts[p], right_costs[b].parts[p]);
+      const auto cheaper = hn::Lt(cost, least.parts[p]);
+      least.parts[p] = hn::IfThenElse(cheaper, cost, least.parts[p]);
+      border.parts[p] = hn::IfThenElse(cheaper, hn::Set(PointTag(), static_cast<float>(b)), border.parts[p]);
     }
   }
-  if (best.border == 0) return best;
-  const std::size_t first = static_cast<std::size_t>(best.axis) * rows.stride;
+  alignas(16) float costs[4], borders[4];
+  for (std::size_t p = 0; p < point_parts; ++p) {
+    hn::Store(least.parts[p], PointTag(), costs + p * point_lanes);
+    hn::Store(border.parts[p], PointTag(), borders + p * point_lanes);
+  }
+  BinBorder best;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(costs[axis] < best.cost)) continue;
+    best.cost = costs[axis];
+    best.axis = static_cast<std::int32_t>(axis);
+    best.border = static_cast<std::int32_t>(borders[axis]);
+  }
   BoxVector sides[2] = {EmptyBox(), EmptyBox()};
   std::uint32_t counts[2] = {};
   for (std::uint32_t b = 0; b < rows.bins; ++b) {
     const std::size_t side = b < static_cast<std::uint32_t>(best.border) ? 0 : 1;
-    sides[side] = Unite(sides[side], LoadBox(rows.boxes[first + b].lanes));
-    counts[side] += rows.counts[first + b];
+    const std::size_t place = 4 * std::size_t{b} + static_cast<std::size_t>(best.axis);
+    sides[side] = Unite(sides[side], LoadBox(rows.boxes[place].lanes));
+    counts[side] += rows.counts[place];
   }
   best.left = ToBox4(sides[0]);
   best.right = ToBox4(sides[1]);

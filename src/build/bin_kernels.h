@@ -19,12 +19,13 @@ struct alignas(32) GrownBox {
   Box4 box() const { return {Float4{-lanes[0], -lanes[1], -lanes[2], 0}, Float4{lanes[4], lanes[5], lanes[6], 0}}; }
 };
 
-/// The bins of three axes: those of an axis follow each other, `stride` after those of the axis before.
+/// The bins of three axes, side by side: that of number b on some axis is at 4 * b + axis. Every fourth is unused.
 struct BinRows {
   GrownBox* boxes;
   std::uint32_t* counts;
-  std::uint32_t bins, stride;
+  std::uint32_t bins;
 };
+inline constexpr std::uint32_t max_bins_in_rows = 64;
 
 /// Fills the bins: what is in them before does not matter. Bins are chosen by the references' doubled centres. O(n).
 void fill_bins(std::span<const Reference> references, const BinScale& scale, const BinRows& rows);
@@ -37,8 +38,7 @@ struct BinBorder {
   Box4 left, right;
   std::uint32_t left_count = 0, right_count = 0;
 };
-inline constexpr std::uint32_t max_swept_bins = 64;
-/// At most max_swept_bins per axis. O(bins).
+/// At most max_bins_in_rows. O(bins).
 BinBorder cheapest_border(const BinRows& rows, std::uint32_t block_shift);
 
 /// Moves those in bins below `border` to the front, the others behind them. Sets the boxes around the doubled centres

@@ -124,16 +124,16 @@ void* allocate_large(std::size_t bytes) { return blocks().allocate(whole_pages(b
 void free_large(void* memory) noexcept { blocks().free(static_cast<std::byte*>(memory)); }
 
 void prefer_huge_pages(void* begin, std::size_t bytes) {
-  // The page with the heap's header belongs to the first huge page and has been touched, so that one has to be
-  // collapsed.
-  constexpr std::uintptr_t small_page = 4096;
+  if (bytes == 0) return;
   constexpr int collapse = 25;  // MADV_COLLAPSE, which older headers lack; older systems refuse it.
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t before = address % small_page;
-  const std::uintptr_t size = (before + bytes) / small_page * small_page;
-  std::byte* const first = static_cast<std::byte*>(begin) - before;
-  madvise(first, size, MADV_HUGEPAGE);
-  if ((address - before) % huge_page == 0 && size >= huge_page) madvise(first, huge_page, collapse);
+  const auto at = [](std::uintptr_t address) { return reinterpret_cast<void*>(address); };
+  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(begin) / huge_page * huge_page;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes - 1) / huge_page * huge_page;
+  madvise(at(first), last + huge_page - first, MADV_HUGEPAGE);
+  // At either end lies memory of others, at least the heap's header, which has been touched: such pages become huge
+  // only by collapsing them. That fails where the heap ends within.
+  madvise(at(first), huge_page, collapse);
+  if (last != first) madvise(at(last), huge_page, collapse);
 }
 
 #else

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boxwood/error.h"
+#include "math/large_memory.h"
 #include "refine/stages.h"
 
 namespace boxwood {
@@ -123,12 +124,14 @@ void check(const CollapseOptions& options, const Tree& tree) {
   }
 }
 
-/// O(n k) time for method area, O(n log k) else; beside the old tree only the new nodes are held.
+/// O(n k) time for method area, O(n log k) else; beside the old tree only the new nodes are held, in room for as many
+/// as the old ones.
 Tree collapse(const CollapseOptions& options, Tree tree) {
   check(options, tree);
   if (tree.empty()) return tree;
-  std::vector<Tree::Node> nodes{tree.nodes[0]};
-  nodes.reserve(tree.nodes.size());
+  std::vector<Tree::Node> nodes;
+  reserve_large(nodes, tree.nodes.size());
+  nodes.push_back(tree.nodes[0]);
   struct Pending {
     std::uint32_t from, to;  // a node of the old tree, its place in the new one
   };
@@ -155,7 +158,6 @@ Tree collapse(const CollapseOptions& options, Tree tree) {
     }
   }
   tree.nodes = std::move(nodes);
-  tree.nodes.shrink_to_fit();
   return tree;
 }
 

@@ -83,7 +83,7 @@ FragmentPair FragmentDivider::by_space(const Fragments& node, const Split& split
   }
   // Cut ones stay within the room: the split was refused otherwise.
   Split sides = split;
-  std::vector<Reference> cut;
+  LargeVector<Reference> cut;
   std::swap(cut, cut_);
   for (const Reference& reference : cut) place_cut(reference, split, sides);
   for (const Reference& reference : cut_) array_[left++] = reference;

@@ -1,11 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "build/build_input.h"
 #include "build/float4.h"
 #include "build/spatial/split.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 
@@ -47,7 +47,7 @@ class FragmentDivider {
   std::span<Reference> array_;
   const Geometry* geometry_;
   bool unsplit_;
-  std::vector<Reference> cut_, right_;
+  LargeVector<Reference> cut_, right_;
 };
 
 }  // namespace boxwood

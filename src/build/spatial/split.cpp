@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "build/spatial/slab_clip.h"
-
 namespace boxwood {
 namespace {
 
@@ -144,8 +142,8 @@ std::array<AxisBins, 3> bins_for_models(const FragmentSet& set, const Slabs& sla
     for (std::size_t b = 0; b < rows.bins; ++b) {
       Bin& bin = axes[axis][b];
       bin = {};
-      bin.box = rows.boxes[axis * rows.stride + b].box();
-      bin.entries = bin.exits = rows.counts[axis * rows.stride + b];
+      bin.box = rows.boxes[4 * b + axis].box();
+      bin.entries = bin.exits = rows.counts[4 * b + axis];
     }
   }
   for (const Reference& reference : set.references) {
@@ -174,17 +172,23 @@ Slabs::Slabs(const Box4& box, std::uint32_t count) {
   }
 }
 
-std::int32_t Slabs::operator()(float at, int axis) const {
-  const float bin = (at - scale_.origin[axis]) * scale_.scale[axis];
-  return static_cast<std::int32_t>(std::max(std::min(bin, scale_.last[axis]), 0.0f));
+SlabAxis Slabs::along(int axis, std::uint32_t count) const {
+  SlabAxis out;
+  out.axis = axis;
+  out.slabs = count;
+  out.origin = scale_.origin[axis];
+  out.scale = scale_.scale[axis];
+  out.last = scale_.last[axis];
+  for (std::uint32_t s = 0; s <= count; ++s) out.borders[s] = border(static_cast<std::int32_t>(s), axis);
+  return out;
 }
 
 Split find_object_split(const FragmentSet& set, std::uint32_t bins, LeafPrice price) {
   Split best;
   best.slabs = Slabs(set.centers, bins);
-  GrownBox boxes[3 * max_spatial_bins];
-  std::uint32_t counts[3 * max_spatial_bins];
-  const BinRows rows{boxes, counts, bins, bins};
+  GrownBox boxes[4 * max_bins_in_rows];
+  std::uint32_t counts[4 * max_bins_in_rows];
+  const BinRows rows{boxes, counts, bins};
   fill_bins(set.references, best.slabs.scale(), rows);
   if (set.model) {
     const std::array<AxisBins, 3> axes = bins_for_models(set, best.slabs, rows);
@@ -207,23 +211,16 @@ Split find_spatial_split(const FragmentSet& set, const Geometry& geometry, std::
   Split best;
   best.slabs = Slabs(set.bounds, bins);
   const int axis = longest_axis(set.bounds);
+  SlabContents contents;
+  fill_slabs(set.references, geometry, best.slabs.along(axis, bins), contents);
   AxisBins row;
-  std::fill_n(row.begin(), bins, Bin{});
-  SlabClip clip(best.slabs, geometry);
-  for (const Reference& reference : set.references) {
-    const Box4 box = box4(reference);
-    const std::int32_t first = best.slabs(box.lower[axis], axis), last = best.slabs(box.upper[axis], axis);
-    ++row[static_cast<std::size_t>(first)].entries;
-    ++row[static_cast<std::size_t>(last)].exits;
-    if (set.model && reference.seen != 0) {
-      ++row[static_cast<std::size_t>(first)].seen_entries;
-      ++row[static_cast<std::size_t>(last)].seen_exits;
-    }
-    if (first == last) {
-      row[static_cast<std::size_t>(first)].box.grow(box);
-    } else {
-      clip.each_slab(reference.primitive, box, axis, first, last,
-                     [&](std::int32_t slab, const Box4& part) { row[static_cast<std::size_t>(slab)].box.grow(part); });
+  for (std::uint32_t b = 0; b < bins; ++b) row[b] = {contents.boxes[b], contents.begin[b], contents.end[b]};
+  if (set.model) {
+    for (const Reference& reference : set.references) {
+      if (reference.seen == 0) continue;
+      const Box4 box = box4(reference);
+      ++row[static_cast<std::size_t>(best.slabs(box.lower[axis], axis))].seen_entries;
+      ++row[static_cast<std::size_t>(best.slabs(box.upper[axis], axis))].seen_exits;
     }
   }
   find_best(

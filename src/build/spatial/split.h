@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -6,11 +7,12 @@
 #include "build/bin_kernels.h"
 #include "build/build_input.h"
 #include "build/float4.h"
+#include "build/spatial/slab_kernels.h"
 #include "cost/cost_model.h"
 
 namespace boxwood {
 
-inline constexpr std::uint32_t max_spatial_bins = max_swept_bins;
+inline constexpr std::uint32_t max_spatial_bins = max_slabs;
 
 /// References to be divided, with the boxes around them and around their doubled centres.
 struct FragmentSet {
@@ -41,7 +43,11 @@ class Slabs {
     const Float4 bin = (point - scale_.origin) * scale_.scale;
     return __builtin_convertvector(max4(min4(bin, scale_.last), Float4{}), Int4);
   }
-  std::int32_t operator()(float at, int axis) const;
+  std::int32_t operator()(float at, int axis) const {
+    const float bin = (at - scale_.origin[axis]) * scale_.scale[axis];
+    return static_cast<std::int32_t>(std::max(std::min(bin, scale_.last[axis]), 0.0f));
+  }
+  SlabAxis along(int axis, std::uint32_t count) const;
   /// Border between the bins index - 1 and index.
   float border(std::int32_t index, int axis) const {
     return scale_.origin[axis] + width_[axis] * static_cast<float>(index);
