@@ -12,6 +12,7 @@
 #include <span>
 
 #include "layout/simd/leaf_steps-inl.h"
+#include "layout/simd/load_rays-inl.h"
 #include "layout/simd/single-inl.h"
 #include "layout/simd/slots-inl.h"
 
@@ -70,7 +71,7 @@ class ClosestBatch {
 
  public:
   ClosestBatch(const WideView& view, std::span<const Ray> rays, std::span<Hit> hits, std::byte* memory)
-      : view_(view), rays_(rays), hits_(hits), slots_(memory, view.stack) {}
+      : view_(view), rays_(rays), hits_(hits), slots_(memory, view.stack), incoming_(rays, view) {}
 
   void run() {
     const int in_flight = slots_.in_flight();
@@ -82,17 +83,13 @@ class ClosestBatch {
  private:
   /// Puts the next ray that the lists can serve into a slot; none when the batch is done.
   HWY_NOINLINE void load(std::uint32_t offset, Lists& lists) {
-    for (; next_ray_ < rays_.size(); ++next_ray_) {
-      const PreparedRay ray = prepare(rays_[next_ray_], view_.reach);
+    const auto skip = [&](const Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
       // Keys order by their bits, which negative distances do not do.
-      if (HWY_UNLIKELY(!ray.valid || ray.t_near < 0)) {
-        hits_[next_ray_] = closest_hit<Store>(view_, ray, CountNothing{});
-        continue;
-      }
-      start<Store::row_bytes>(slots_, slots_.at(offset), view_, ray, next_ray_++);
-      lists.nodes.add(offset);
-      return;
-    }
+      if (HWY_LIKELY(valid && ray.t_near >= 0)) return false;
+      hits_[index] = closest_hit<Store>(view_, prepare(rays_[index], view_.reach), CountNothing{});
+      return true;
+    };
+    if (incoming_.next(slots_, slots_.at(offset), skip)) lists.nodes.add(offset);
   }
 
   void begin(Lists& lists) {
@@ -157,7 +154,7 @@ class ClosestBatch {
   std::span<const Ray> rays_;
   std::span<Hit> hits_;
   Slots slots_;
-  std::size_t next_ray_ = 0;
+  IncomingRays<Store::row_bytes> incoming_;
   Lists groups_[ray_groups];
 };
 
@@ -168,7 +165,7 @@ class AnyBatch {
 
  public:
   AnyBatch(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked, std::byte* memory)
-      : view_(view), rays_(rays), blocked_(blocked), slots_(memory, view.stack) {}
+      : view_(view), blocked_(blocked), slots_(memory, view.stack), incoming_(rays, view) {}
 
   void run() {
     const int in_flight = slots_.in_flight();
@@ -179,14 +176,11 @@ class AnyBatch {
 
  private:
   HWY_NOINLINE void load(std::uint32_t offset, Lists& lists) {
-    for (; next_ray_ < rays_.size(); ++next_ray_) {
-      const PreparedRay ray = prepare(rays_[next_ray_], view_.reach);
-      blocked_[next_ray_] = 0;
-      if (HWY_UNLIKELY(!ray.valid)) continue;
-      start<Store::row_bytes>(slots_, slots_.at(offset), view_, ray, next_ray_++);
-      lists.nodes.add(offset);
-      return;
-    }
+    const auto skip = [&](const Slot&, bool valid, std::uint32_t index) HWY_ATTR {
+      blocked_[index] = 0;
+      return !valid;
+    };
+    if (incoming_.next(slots_, slots_.at(offset), skip)) lists.nodes.add(offset);
   }
 
   void begin(Lists& lists) {
@@ -214,10 +208,9 @@ class AnyBatch {
   }
 
   const WideView& view_;
-  std::span<const Ray> rays_;
   std::span<std::uint8_t> blocked_;
   Slots slots_;
-  std::size_t next_ray_ = 0;
+  IncomingRays<Store::row_bytes> incoming_;
   Lists groups_[ray_groups];
 };
 

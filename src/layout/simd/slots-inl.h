@@ -89,26 +89,6 @@ HWY_INLINE void append(SlotList& from, SlotList& to) {
   from.size = 0;
 }
 
-/// Puts a ray in front of the root of a tree whose nodes have rows of so many bytes.
-template <std::uint32_t RowBytes>
-HWY_INLINE void start(const Slots& slots, Slot& slot, const WideView& view, const PreparedRay& ray, std::size_t index) {
-  for (int axis = 0; axis < 3; ++axis) {
-    slot.inverse[axis] = ray.inverse[axis];
-    slot.near_offset[axis] = ray.near_offset[axis];
-    slot.far_offset[axis] = ray.far_offset[axis];
-    slot.near_row[axis] = static_cast<std::uint32_t>(2 * axis + ray.negative[axis]) * RowBytes;
-  }
-  slot.leaf = triangle_ray(ray);
-  slot.t_near = ray.t_near + 0.0f;  // never -0: keys and limits are compared as integers
-  slot.t_limit = ray.t_far + 0.0f;
-  slot.next = view.root;
-  slot.top = stack_bottom + 1;
-  slot.best = Hit{};
-  slot.index = static_cast<std::uint32_t>(index);
-  slots.references(slot)[stack_bottom] = wide_finished;
-  slots.keys(slot)[stack_bottom] = -1;
-}
-
 /// Sorts what a pass left in `list` into nodes, leaves and the rest by `next`, the references in the same order.
 /// `list` may be that of `nodes`, emptied: lanes are read before anything is written over them.
 HWY_INLINE void split(const std::uint32_t* list, std::uint32_t length, const std::uint32_t* next, SlotList& nodes,

@@ -1,0 +1,177 @@
+// Rays put into slots eight at a time: prepared side by side with the bits of prepare(), and transposed on the way in
+// and out. Compiled once per instruction set that has eight lanes.
+#if defined(BOXWOOD_LAYOUT_SIMD_LOAD_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_LOAD_RAYS_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_LOAD_RAYS_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_LOAD_RAYS_INL_H
+#endif
+
+#include <algorithm>
+#include <span>
+
+#include "layout/simd/slots-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_MAX_BYTES >= 32
+
+using EightFloats = hn::FixedTag<float, 8>;
+using OfEight = hn::Vec<EightFloats>;
+
+/// Rows become columns.
+HWY_INLINE void transpose_eight(OfEight (&rows)[8]) {
+  const EightFloats d;
+  const hn::Repartition<double, EightFloats> pairs;
+  OfEight twos[8], fours[8];
+  for (int i = 0; i < 8; i += 2) {
+    twos[i] = hn::InterleaveLower(d, rows[i], rows[i + 1]);
+    twos[i + 1] = hn::InterleaveUpper(d, rows[i], rows[i + 1]);
+  }
+  for (int i = 0; i < 8; i += 4) {
+    for (int half = 0; half < 2; ++half) {
+      const auto a = hn::BitCast(pairs, twos[i + half]), b = hn::BitCast(pairs, twos[i + half + 2]);
+      fours[i + 2 * half] = hn::BitCast(d, hn::InterleaveLower(pairs, a, b));
+      fours[i + 2 * half + 1] = hn::BitCast(d, hn::InterleaveUpper(pairs, a, b));
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    rows[i] = hn::ConcatLowerLower(d, fours[i + 4], fours[i]);
+    rows[i + 4] = hn::ConcatUpperUpper(d, fours[i + 4], fours[i]);
+  }
+}
+
+/// The dominant axis of eight directions, and coordinates in the order of a ray's own axes: that one last.
+struct EightAxes {
+  hn::Mask<EightFloats> x, y;  // dominant; z where neither is
+
+  HWY_INLINE explicit EightAxes(const OfEight (&size)[3])
+      : x(hn::And(hn::Gt(size[0], size[1]), hn::Gt(size[0], size[2]))),
+        y(hn::AndNot(hn::Gt(size[0], size[1]), hn::Gt(size[1], size[2]))) {}
+  /// Of what holds where x, y or z is dominant.
+  HWY_INLINE OfEight pick(OfEight at_x, OfEight at_y, OfEight at_z) const {
+    return hn::IfThenElse(x, at_x, hn::IfThenElse(y, at_y, at_z));
+  }
+  HWY_INLINE OfEight first(const OfEight (&v)[3]) const { return pick(v[1], v[2], v[0]); }
+  HWY_INLINE OfEight second(const OfEight (&v)[3]) const { return pick(v[2], v[0], v[1]); }
+  HWY_INLINE OfEight dominant(const OfEight (&v)[3]) const { return pick(v[0], v[1], v[2]); }
+};
+
+/// Fills slots with eight rays, all but their place in a tree and what they have found. ray(i) and slot(i): the i-th.
+/// RowBytes: of the rows of a node. Returns which are within the limits of `Ray`, a bit each; the slots of others hold
+/// nothing of use.
+template <std::uint32_t RowBytes, class RayAt, class SlotAt>
+HWY_INLINE std::uint32_t load_eight(float reach, RayAt ray, SlotAt slot) {
+  const EightFloats d;
+  const hn::RebindToSigned<EightFloats> di;
+  const auto integers = [&](std::int32_t value) HWY_ATTR { return hn::BitCast(d, hn::Set(di, value)); };
+  OfEight in[8];  // origin, t_near, direction, t_far
+  for (int i = 0; i < 8; ++i) in[i] = hn::LoadU(d, &ray(i).origin.x);
+  transpose_eight(in);
+  const OfEight origin[3] = {in[0], in[1], in[2]}, direction[3] = {in[4], in[5], in[6]};
+  const OfEight size[3] = {hn::Abs(in[4]), hn::Abs(in[5]), hn::Abs(in[6])};
+  const EightAxes axes(size);
+  const OfEight dominant = axes.dominant(direction), largest = hn::Abs(dominant);
+
+  const OfEight limit = hn::Set(d, largest_coordinate);
+  auto valid = hn::And(hn::Le(in[3], in[7]), hn::Ge(largest, hn::Set(d, 1 / largest_coordinate)));
+  OfEight magnitude = hn::Set(d, 0x1p-26f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const OfEight distance = hn::Abs(origin[axis]);
+    valid = hn::And(valid, hn::And(hn::Le(size[axis], limit), hn::Le(distance, limit)));
+    magnitude = hn::Max(hn::Add(distance, hn::Set(d, reach)), magnitude);
+  }
+
+  const OfEight one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  const OfEight bound = hn::Mul(magnitude, hn::Set(d, 0x1p-19f)), least = hn::Mul(largest, hn::Set(d, 1e-9f));
+  OfEight inverse[3], near_offset[3], far_offset[3], near_row[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    inverse[axis] = hn::Div(one, hn::CopySign(hn::Max(size[axis], least), direction[axis]));
+    const OfEight center = hn::Mul(origin[axis], inverse[axis]), slack = hn::Mul(bound, hn::Abs(inverse[axis]));
+    near_offset[axis] = hn::Add(center, slack);
+    far_offset[axis] = hn::Sub(center, slack);
+    const auto negative = hn::RebindMask(d, hn::Lt(hn::BitCast(di, direction[axis]), hn::Zero(di)));
+    const auto row = static_cast<std::int32_t>(2 * static_cast<std::uint32_t>(axis) * RowBytes);
+    near_row[axis] = hn::IfThenElse(negative, integers(row + static_cast<std::int32_t>(RowBytes)), integers(row));
+  }
+
+  // In the order of Slot. Limits are never -0: they are compared as integers.
+  OfEight out[3][8] = {
+      {inverse[0], inverse[1], inverse[2], near_offset[0], near_offset[1], near_offset[2], far_offset[0],
+       far_offset[1]},
+      {far_offset[2], hn::Add(in[3], zero), hn::Add(in[7], zero), near_row[0], near_row[1], near_row[2], zero, zero},
+      {axes.first(origin), axes.second(origin), axes.dominant(origin), hn::Div(axes.first(direction), dominant),
+       hn::Div(axes.second(direction), dominant), hn::Div(one, dominant),
+       axes.pick(integers(1), integers(2), integers(0)), axes.pick(integers(2), integers(0), integers(1))}};
+  alignas(32) float last_axes[8];
+  hn::Store(axes.pick(integers(0), integers(1), integers(2)), d, last_axes);
+  for (int part = 0; part < 3; ++part) {
+    transpose_eight(out[part]);
+    for (int i = 0; i < 8; ++i) hn::Store(out[part][i], d, reinterpret_cast<float*>(&slot(i)) + 8 * part);
+  }
+  for (int i = 0; i < 8; ++i) slot(i).leaf.axes[2] = std::bit_cast<std::uint32_t>(last_axes[i]);
+  return bits_of(d, valid);
+}
+
+/// The rays of a batch in order, ready to be put into slots.
+template <std::uint32_t RowBytes>
+class IncomingRays {
+ public:
+  IncomingRays(std::span<const Ray> rays, const WideView& view) : rays_(rays), view_(view) {}
+
+  /// Puts the next ray in front of the root of the tree. Those that `skip(ready ray, whether it is valid, index)` is
+  /// true of are passed over. False when there are none left.
+  template <class Skip>
+  HWY_INLINE bool next(const Slots& slots, Slot& slot, Skip skip) {
+    while (left_ == 0) {
+      if (prepared_ == rays_.size()) return false;
+      prepare_more(skip);
+    }
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(left_));
+    left_ &= left_ - 1;
+    copy_ray(ready_[i], slot);
+    slot.next = view_.root;
+    slot.top = stack_bottom + 1;
+    slot.best = Hit{};
+    slot.index = begin_ + i;
+    slots.references(slot)[stack_bottom] = wide_finished;
+    slots.keys(slot)[stack_bottom] = -1;
+    return true;
+  }
+
+ private:
+  static HWY_INLINE void copy_ray(const Slot& from, Slot& to) {
+    const EightFloats d;
+    const auto* in = reinterpret_cast<const float*>(&from);
+    auto* out = reinterpret_cast<float*>(&to);
+    for (int part = 0; part < 32; part += 8) hn::Store(hn::Load(d, in + part), d, out + part);
+  }
+
+  template <class Skip>
+  HWY_NOINLINE void prepare_more(Skip skip) {
+    const std::size_t size = std::min<std::size_t>(8, rays_.size() - prepared_);
+    begin_ = static_cast<std::uint32_t>(prepared_);
+    // Missing rays are the last one again.
+    const std::uint32_t valid = load_eight<RowBytes>(
+        view_.reach, [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[prepared_ + std::min(i, size - 1)]; },
+        [&](std::size_t i) HWY_ATTR -> Slot& { return ready_[i]; });
+    for (std::uint32_t i = 0; i < size; ++i) {
+      left_ |= static_cast<std::uint32_t>(!skip(ready_[i], (valid >> i & 1) != 0, begin_ + i)) << i;
+    }
+    prepared_ += size;
+  }
+
+  std::span<const Ray> rays_;
+  const WideView& view_;
+  std::size_t prepared_ = 0;  // rays
+  std::uint32_t begin_ = 0;   // of the eight that are ready, in the batch
+  std::uint32_t left_ = 0;    // of these, a bit each
+  Slot ready_[8] = {};
+};
+
+#endif  // HWY_MAX_BYTES >= 32
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif
