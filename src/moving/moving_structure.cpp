@@ -97,6 +97,7 @@ std::shared_ptr<const Layout> MovingStructure::State::place(BuildReport& report)
   contents.instances = scene.instances;
   contents.bottoms = bottoms;
   const Pipeline pipeline(recipe);
+  pipeline.check_places_whole();
   Tree tree = pipeline.tree({instance_references(boxes), nullptr, nullptr});
   report.nodes += tree.nodes.size();
   report.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;

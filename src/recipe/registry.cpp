@@ -12,6 +12,7 @@
 #include "recipe/stage.h"
 #include "refine/optimal_collapse/stages.h"
 #include "refine/order/stages.h"
+#include "refine/rebraid/stages.h"
 #include "refine/reinsert/stages.h"
 #include "refine/rotate/stages.h"
 #include "refine/stages.h"
@@ -41,6 +42,7 @@ const std::vector<Stage>& stages() {
       reinsert_stage(),
       rotate_stage(),
       order_stage(),
+      rebraid_stage(),
       binary_stage(),
       wide_stage(),
       compressed_stage(),

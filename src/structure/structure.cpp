@@ -13,6 +13,7 @@
 #include "structure/instance_paths.h"
 #include "structure/mesh_geometry.h"
 #include "structure/object_use.h"
+#include "structure/opened_instances.h"
 #include "structure/pipeline.h"
 #include "structure/same_length.h"
 #include "structure/size_limits.h"
@@ -28,15 +29,18 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Builds one level and adds what it cost to the report. Statistics are taken off the clock.
-std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput input, const Contents& contents,
-                                          BuildReport& report) {
-  const auto begin_tree = Clock::now();
+/// Adds what it cost to the report. Statistics are taken off the clock.
+Tree build_tree(const Pipeline& pipeline, BuildInput input, BuildReport& report) {
+  const auto begin = Clock::now();
   Tree tree = pipeline.tree(std::move(input));
-  report.build_ms += milliseconds_since(begin_tree);
+  report.build_ms += milliseconds_since(begin);
   report.nodes += tree.nodes.size();
   report.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
-  if (contents.mesh) report.sah_cost += sah_cost(tree);
+  return tree;
+}
+
+std::shared_ptr<const Layout> encode_level(const Pipeline& pipeline, Tree tree, const Contents& contents,
+                                           BuildReport& report) {
   const auto begin_layout = Clock::now();
   auto layout = pipeline.encode(std::move(tree), contents);
   report.build_ms += milliseconds_since(begin_layout);
@@ -45,17 +49,39 @@ std::shared_ptr<const Layout> build_level(const Pipeline& pipeline, BuildInput i
   return layout;
 }
 
-std::shared_ptr<const Layout> build_mesh(const Mesh& mesh, const Pipeline& pipeline, const KnownUse* use,
-                                         BuildReport& report) {
+Tree build_mesh_tree(const Mesh& mesh, const Pipeline& pipeline, const KnownUse* use, BuildReport& report) {
   const auto begin = Clock::now();
   const MeshGeometry geometry(mesh);
   BuildInput input{geometry.references(), &geometry, use};
   report.build_ms += milliseconds_since(begin);
   report.primitives += input.references.size();
   report.left_out += mesh.triangles.size() - input.references.size();
+  Tree tree = build_tree(pipeline, std::move(input), report);
+  report.sah_cost += sah_cost(tree);
+  return tree;
+}
+
+std::shared_ptr<const Layout> encode_mesh(const Mesh& mesh, Tree tree, const Pipeline& pipeline, BuildReport& report) {
   Contents contents;
   contents.mesh = &mesh;
-  return build_level(pipeline, std::move(input), contents, report);
+  return encode_level(pipeline, std::move(tree), contents, report);
+}
+
+/// Meshes as they are, or in parts where the recipe says so.
+OpenedInstances place_instances(const Scene& scene, std::vector<Tree> trees, const Pipeline& pipeline,
+                                BuildReport& report) {
+  const auto begin = Clock::now();
+  OpenedInstances opened = open_instances(scene, std::move(trees), pipeline.references_per_instance());
+  report.build_ms += milliseconds_since(begin);
+  return opened;
+}
+
+/// Of the parts of instances.
+KnownUse use_of_parts(KnownUse of_instances, const OpenedInstances& opened) {
+  std::vector<std::uint8_t> seen;
+  for (const std::uint32_t number : opened.numbers) seen.push_back(of_instances.seen[number]);
+  of_instances.seen = std::move(seen);
+  return of_instances;
 }
 
 std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipeline& pipeline, const ExpectedUse* use,
@@ -64,16 +90,24 @@ std::shared_ptr<const Layout> build_two_levels(const Scene& scene, const Pipelin
   std::optional<KnownUse> known;
   const auto known_to = [&](const auto& make) { return use ? &known.emplace(make()) : nullptr; };
 
-  std::vector<std::shared_ptr<const Layout>> bottoms;
+  std::vector<Tree> trees;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const KnownUse* of_mesh = known_to([&] { return use_of_mesh(*use, scene, m, boxes); });
-    bottoms.push_back(build_mesh(scene.meshes[m], pipeline, of_mesh, report));
+    trees.push_back(build_mesh_tree(scene.meshes[m], pipeline, of_mesh, report));
+  }
+  OpenedInstances opened = place_instances(scene, std::move(trees), pipeline, report);
+  std::vector<std::shared_ptr<const Layout>> bottoms;
+  for (std::size_t part = 0; part < opened.parts.size(); ++part) {
+    const Mesh& mesh = scene.meshes[opened.mesh_of[part]];
+    bottoms.push_back(encode_mesh(mesh, std::move(opened.parts[part]), pipeline, report));
   }
   Contents contents;
-  contents.instances = scene.instances;
+  contents.instances = opened.instances;
   contents.bottoms = bottoms;
-  const KnownUse* of_instances = known_to([&] { return use_of_instances(*use, scene); });
-  return build_level(pipeline, {instance_references(boxes), nullptr, of_instances}, contents, report);
+  contents.numbers = opened.numbers;
+  const KnownUse* of_parts = known_to([&] { return use_of_parts(use_of_instances(*use, scene), opened); });
+  Tree tree = build_tree(pipeline, {instance_references(opened.boxes), nullptr, of_parts}, report);
+  return encode_level(pipeline, std::move(tree), contents, report);
 }
 
 /// The use, where the recipe looks at it; null where it does not. Throws UsageError on one that does not fit the scene.
@@ -129,7 +163,9 @@ Structure build(const Scene& scene, const Recipe& recipe, const BuildOptions& op
     } else if (scene.single_level()) {
       std::optional<KnownUse> known;
       if (use) known = use_of_mesh(*use, scene, 0, {});
-      layout = build_mesh(scene.meshes.front(), Pipeline(recipe), use ? &*known : nullptr, report);
+      const Pipeline pipeline(recipe);
+      const Mesh& mesh = scene.meshes.front();
+      layout = encode_mesh(mesh, build_mesh_tree(mesh, pipeline, use ? &*known : nullptr, report), pipeline, report);
     } else {
       layout = build_two_levels(scene, Pipeline(recipe), use, report);
     }

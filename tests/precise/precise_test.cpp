@@ -88,6 +88,7 @@ TEST_P(PreciseRecipe, AnyMeshAnswersLikeTestingEveryTriangle) {
   for (const auto& [count, size, spread, center] : std::vector<Case>{{1, 1, 0, {}},
                                                                      {400, 0.1, 1, {}},
                                                                      {400, 1e-3, 1e-2, {6e6, -1e5, 2e6}},
+                                                                     {300, 3e-8, 3e-7, {6e6, -1e5, 2e6}},  // some ulps
                                                                      {400, 1e-5, 1, {3, 0, 0}},
                                                                      {200, 1e-9, 1e-8, {1, 1, 1}},
                                                                      {300, 1e-31, 1e-30, {}},

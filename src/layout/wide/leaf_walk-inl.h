@@ -29,6 +29,7 @@ class LeafWalk {
   using D = Floats<K>;
 
  public:
+  LeafWalk() {}  // leaves the room for open ends as it is: filling it would take longer than many a walk
   /// False when the ray meets nothing.
   template <class CountingPolicy>
   HWY_INLINE bool start(const WideNodes& nodes, const Reach& extent, const Ray& ray, CountingPolicy& counting) {
@@ -105,7 +106,9 @@ class LeafWalk {
 
   PreparedRay prepared_;
   std::uint32_t top_;
-  Open open_[open_ends];
+  union {
+    Open open_[open_ends];
+  };
 };
 
 }  // namespace HWY_NAMESPACE

@@ -71,6 +71,7 @@ Scene stadium_scene(const Stadium& o) {
 struct Rack {
   std::uint32_t count = 64;
   std::uint32_t detail = 8;
+  float spacing = 2.2f;
   std::uint32_t seed = 1;
 };
 
@@ -87,7 +88,8 @@ Scene rack_scene(const Rack& o) {
     const float scale = random.uniform(0.5f, 1.0f);
     place.x = place.x * scale, place.y = place.y * scale, place.z = place.z * scale;
     const std::uint32_t layer = i / (side * side), row = i / side % side, column = i % side;
-    place.translation = Vec3{static_cast<float>(column), static_cast<float>(layer), static_cast<float>(row)} * 2.2f;
+    place.translation =
+        Vec3{static_cast<float>(column), static_cast<float>(layer), static_cast<float>(row)} * o.spacing;
     scene.instances.push_back({0, place});
   }
   return scene;
@@ -119,6 +121,7 @@ Generator instances_generator() {
                              .integer("count", &Rack::count, 0, 10'000'000, "how many")
                              .positional()
                              .integer("detail", &Rack::detail, 3, 3'000, "of the knot; 16 * detail^2 triangles")
+                             .real("spacing", &Rack::spacing, 0.01f, 100, "of their centres; below 2 they overlap")
                              .integer("seed", &Rack::seed, 0, 0xffffffffu, "another one, another scene"),
                          rack_scene);
 }
