@@ -65,12 +65,12 @@ bool PreciseStructure::any_hit(const PreciseRay& ray) const { return kernels_->a
 
 void PreciseStructure::closest_hits(std::span<const PreciseRay> rays, std::span<PreciseHit> hits) const {
   check_same_length(rays.size(), hits.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = kernels_->closest(*level_, rays[i], nullptr);
+  kernels_->closest_batch(*level_, rays, hits);
 }
 
 void PreciseStructure::any_hits(std::span<const PreciseRay> rays, std::span<std::uint8_t> blocked) const {
   check_same_length(rays.size(), blocked.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = kernels_->any(*level_, rays[i], nullptr) ? 1 : 0;
+  kernels_->any_batch(*level_, rays, blocked);
 }
 
 void PreciseStructure::closest_hits_counted(std::span<const PreciseRay> rays, std::span<PreciseHit> hits,

@@ -13,6 +13,9 @@
 
 namespace boxwood {
 
+/// Frames within frames; no deeper, because each is at most 2^-10 of the one around it and they end at 2^-28.
+inline constexpr std::uint32_t most_frames_deep = 4;
+
 /// Wide nodes of single-precision boxes in a space of their own: x there is (x - center) * scale. A box that floats
 /// hold around a centre of its own is off by 2^-24 of the frame, not of the world.
 struct PreciseFrame {
