@@ -21,9 +21,9 @@
 namespace boxwood {
 namespace {
 
-std::vector<PreciseTriangle> usable_triangles(std::span<const DoubleVec3> vertices,
+LargeVector<PreciseTriangle> usable_triangles(std::span<const DoubleVec3> vertices,
                                               std::span<const Triangle> triangles) {
-  std::vector<PreciseTriangle> out;
+  LargeVector<PreciseTriangle> out;
   out.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t vertex : triangles[i]) {
@@ -98,7 +98,7 @@ PreciseStructure build_precise(std::span<const DoubleVec3> vertices, std::span<c
   std::shared_ptr<const PreciseLevel> level;
   run_on_threads(options.threads, [&] {
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<PreciseTriangle> usable = usable_triangles(vertices, triangles);
+    LargeVector<PreciseTriangle> usable = usable_triangles(vertices, triangles);
     report.primitives = usable.size();
     report.left_out = triangles.size() - usable.size();
     const double reach = reach_of(usable);

@@ -7,6 +7,7 @@
 #include "boxwood/precise.h"
 #include "layout/layout.h"
 #include "layout/wide/wide_nodes.h"
+#include "math/large_memory.h"
 #include "recipe/stage.h"
 #include "trace/precise_triangle.h"
 #include "tree/tree.h"
@@ -41,7 +42,7 @@ struct PreciseFrameTree {
   DoubleVec3 center;
   double scale = 1;
   Tree tree;
-  std::vector<PreciseTriangle> content;
+  LargeVector<PreciseTriangle> content;
 };
 
 /// Lays out trees in nodes of 4, 8 or 16 children, the fewest that hold those of all. Throws UsageError on wider trees.
