@@ -86,6 +86,8 @@ class FrameBuilder {
                            : std::stable_partition(triangles.begin(), triangles.end(), [&](const PreciseTriangle& t) {
                                return box_of(t).largest_extent() >= size * least_detail;
                              });
+    out_.content.reserve(triangles.size());
+    reserve_large(references_, triangles.size());
     add_triangles(std::span(triangles.begin(), inner));
     std::vector<std::span<PreciseTriangle>> parts;
     if (inner != triangles.end()) divide(std::span(inner, triangles.end()), size * largest_inner_frame, parts);
@@ -131,11 +133,11 @@ class FrameBuilder {
 
 }  // namespace
 
-std::vector<PreciseFrameTree> build_frames(std::vector<PreciseTriangle> triangles, const Pipeline& pipeline) {
+std::vector<PreciseFrameTree> build_frames(LargeVector<PreciseTriangle> triangles, const Pipeline& pipeline) {
   std::vector<PreciseFrameTree> frames;
   if (triangles.empty()) return frames;
   const double least_size = reach_of(triangles) * least_frame;
-  std::vector<std::span<PreciseTriangle>> open = {triangles};
+  std::vector<std::span<PreciseTriangle>> open = {std::span<PreciseTriangle>(triangles)};
   while (!open.empty()) {
     std::vector<std::optional<FrameBuilder>> builders(open.size());
     tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) { builders[i].emplace(open[i], least_size); });
@@ -158,7 +160,7 @@ std::vector<PreciseFrameTree> build_frames(std::vector<PreciseTriangle> triangle
   return frames;
 }
 
-double reach_of(const std::vector<PreciseTriangle>& triangles) {
+double reach_of(std::span<const PreciseTriangle> triangles) {
   double reach = 0;
   for (const PreciseTriangle& triangle : triangles) {
     for (const DoubleVec3& vertex : {triangle.a, triangle.b, triangle.c}) {

@@ -130,7 +130,8 @@ class Opening {
     double left = 0;
     const auto add = [&](std::uint32_t mesh, std::uint32_t node) {
       const Tree::Node& to = trees_[mesh].nodes[node];
-      const bool whole = to.is_leaf() || sizes[mesh][node] < least_in_part;
+      // What stands once, such as the ground, overlaps everything, and would be divided first and most for nothing.
+      const bool whole = to.is_leaf() || sizes[mesh][node] < least_in_part || instances_of_[mesh].size() == 1;
       const float gain = whole ? 0 : shared_area(overlaps, mesh, to.bounds);
       if (gain > 0) {
         queue.push({gain, mesh, node});

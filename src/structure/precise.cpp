@@ -21,9 +21,9 @@
 namespace boxwood {
 namespace {
 
-std::vector<PreciseTriangle> usable_triangles(std::span<const DoubleVec3> vertices,
+LargeVector<PreciseTriangle> usable_triangles(std::span<const DoubleVec3> vertices,
                                               std::span<const Triangle> triangles) {
-  std::vector<PreciseTriangle> out;
+  LargeVector<PreciseTriangle> out;
   out.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t vertex : triangles[i]) {
@@ -65,12 +65,12 @@ bool PreciseStructure::any_hit(const PreciseRay& ray) const { return kernels_->a
 
 void PreciseStructure::closest_hits(std::span<const PreciseRay> rays, std::span<PreciseHit> hits) const {
   check_same_length(rays.size(), hits.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = kernels_->closest(*level_, rays[i], nullptr);
+  kernels_->closest_batch(*level_, rays, hits);
 }
 
 void PreciseStructure::any_hits(std::span<const PreciseRay> rays, std::span<std::uint8_t> blocked) const {
   check_same_length(rays.size(), blocked.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = kernels_->any(*level_, rays[i], nullptr) ? 1 : 0;
+  kernels_->any_batch(*level_, rays, blocked);
 }
 
 void PreciseStructure::closest_hits_counted(std::span<const PreciseRay> rays, std::span<PreciseHit> hits,
@@ -98,7 +98,7 @@ PreciseStructure build_precise(std::span<const DoubleVec3> vertices, std::span<c
   std::shared_ptr<const PreciseLevel> level;
   run_on_threads(options.threads, [&] {
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<PreciseTriangle> usable = usable_triangles(vertices, triangles);
+    LargeVector<PreciseTriangle> usable = usable_triangles(vertices, triangles);
     report.primitives = usable.size();
     report.left_out = triangles.size() - usable.size();
     const double reach = reach_of(usable);

@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 //
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "layout/encode.h"
 #include "layout/wide/leaf_walk-inl.h"
@@ -20,8 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-/// Open ends that a walk through a frame has room for before it begins anew with room for any tree.
-inline constexpr std::uint32_t usual_open_ends = 128;
+/// Open ends that a walk through a frame has room for before the ray begins anew with room for any tree.
+inline constexpr std::uint32_t usual_open_ends = 56;
 
 /// What all frames need of a ray.
 struct PreciseWalkRay {
@@ -48,6 +50,7 @@ struct PreciseWalkRay {
 /// A ray in the space of a frame.
 class MovedRay {
  public:
+  MovedRay() = default;
   /// Seen from so many times its size, which may be all that a double tells from nothing, a frame is entered in full.
   static constexpr float blurred_reach = 0x1p36f;
 
@@ -92,99 +95,209 @@ class MovedRay {
   bool passes_by_, blurred_;
 };
 
+/// The closest-hit query of one ray.
 template <class CountingPolicy>
-struct PreciseClosestVisit {
-  const PreciseSheared& sheared;
-  PreciseHit& best;
-  CountingPolicy counting;
+class PreciseClosest {
+ public:
+  using Answer = PreciseHit;
 
-  HWY_INLINE double limit() const { return best.t < sheared.t_far ? best.t : sheared.t_far; }
+  PreciseClosest(const PreciseRay& ray, PreciseHit& best, RayCounters* counters)
+      : counting(counters), sheared_(shear(ray)), best_(&best) {}
+
+  HWY_INLINE double limit() const { return best_->t < sheared_.t_far ? best_->t : sheared_.t_far; }
+  /// Whether the triangle ends the walk.
   HWY_INLINE bool operator()(const PreciseTriangle& triangle) {
-    closest_of(triangle, sheared, best);
+    closest_of(triangle, sheared_, *best_);
     return false;
   }
+
+  CountingPolicy counting;
+
+ private:
+  PreciseSheared sheared_;
+  PreciseHit* best_;
 };
 
 template <class CountingPolicy>
-struct PreciseAnyVisit {
-  const PreciseSheared& sheared;
-  CountingPolicy counting;
-
-  HWY_INLINE double limit() const { return sheared.t_far; }
-  HWY_INLINE bool operator()(const PreciseTriangle& triangle) const { return blocks(triangle, sheared); }
-};
-
-enum class FrameEnd : std::uint8_t { stopped, done, overflow };
-
-/// `visit` says whether a triangle is enough.
-template <int K, class Visit>
-class PreciseWalk {
+class PreciseAny {
  public:
-  PreciseWalk(const PreciseLevel& level, const PreciseRay& ray, Visit& visit)
-      : level_(level), ray_(ray, level.reach), visit_(visit) {}
+  using Answer = std::uint8_t;
 
-  bool run() { return !level_.frames.empty() && enter(0); }
+  PreciseAny(const PreciseRay& ray, std::uint8_t& blocked, RayCounters* counters)
+      : counting(counters), sheared_(shear(ray)), blocked_(&blocked) {}
 
- private:
-  bool enter(std::uint32_t frame) {
-    FrameEnd end = walk_frame<usual_open_ends>(level_.frames[frame]);
-    if (HWY_UNLIKELY(end == FrameEnd::overflow)) end = walk_deep_frame(level_.frames[frame]);
-    return end == FrameEnd::stopped;
+  HWY_INLINE double limit() const { return sheared_.t_far; }
+  HWY_INLINE bool operator()(const PreciseTriangle& triangle) {
+    *blocked_ = blocks(triangle, sheared_) ? 1 : 0;
+    return *blocked_ != 0;
   }
 
-  HWY_NOINLINE FrameEnd walk_deep_frame(const PreciseFrame& frame) { return walk_frame<stack_entries>(frame); }
+  CountingPolicy counting;
 
-  template <std::uint32_t open_ends>
-  FrameEnd walk_frame(const PreciseFrame& frame) {
-    const MovedRay moved(frame, ray_);
-    if (moved.passes_by()) return FrameEnd::done;
+ private:
+  PreciseSheared sheared_;
+  std::uint8_t* blocked_;
+};
+
+/// One ray on its way through frames within frames, leaf by leaf, with room for `open_ends` in each.
+template <int K, std::uint32_t open_ends, class Visit>
+class PreciseWalk {
+ public:
+  PreciseWalk(const PreciseLevel& level, const PreciseRay& ray, Visit& visit) : ray_(ray, level.reach) {
+    if (!level.frames.empty()) enter(level.frames[0], visit);
+  }
+
+  /// Goes through what the ray has come to and on to the next leaf. When that is `visit`, the leaf is on its way from
+  /// memory, and other work may be done meanwhile.
+  HWY_INLINE LeafStep advance(const PreciseLevel& level, Visit& visit) {
+    while (depth_ != 0) {
+      Within& within = within_[depth_ - 1];
+      const PreciseFrame& frame = *within.frame;
+      if (within.left.count == 0) {
+        const LeafStep step =
+            within.walk.next(frame.nodes, within.moved.local(visit.limit()), within.left, visit.counting);
+        if (step == LeafStep::overflow) return step;
+        if (step == LeafStep::visit) {
+          prefetch(level.entries.data() + frame.first_entry + within.left.first, within.left.count);
+          return step;
+        }
+        --depth_;
+        continue;
+      }
+      --within.left.count;
+      const PreciseTriangle& entry = level.entries[frame.first_entry + within.left.first++];
+      if (entry.frame != no_frame) {
+        enter(level.frames[entry.frame], visit);
+        continue;
+      }
+      visit.counting.primitive();
+      if (visit(entry)) return LeafStep::done;
+    }
+    return LeafStep::done;
+  }
+
+ private:
+  struct Within {
+    const PreciseFrame* frame;
+    MovedRay moved;
     LeafWalk<K, open_ends> walk;
-    if (!walk.start(frame.nodes, moved.reach(), moved.ray(), visit_.counting)) return FrameEnd::done;
-    const PreciseTriangle* const entries = level_.entries.data() + frame.first_entry;
-    Link leaf;
-    LeafStep step;
-    while ((step = walk.next(frame.nodes, moved.local(visit_.limit()), leaf, visit_.counting)) == LeafStep::visit) {
-      for (const PreciseTriangle *entry = entries + leaf.first, *end = entry + leaf.count; entry != end; ++entry) {
-        if (entry->frame == no_frame) visit_.counting.primitive();
-        if (entry->frame == no_frame ? visit_(*entry) : enter(entry->frame)) return FrameEnd::stopped;
+    Link left;  ///< of the leaf that is being visited
+  };
+
+  void enter(const PreciseFrame& frame, Visit& visit) {
+    Within& within = within_[depth_];
+    within.frame = &frame;
+    within.moved = MovedRay(frame, ray_);
+    within.left.count = 0;
+    if (within.moved.passes_by()) return;
+    if (within.walk.start(frame.nodes, within.moved.reach(), within.moved.ray(), visit.counting)) ++depth_;
+  }
+  static HWY_INLINE void prefetch(const PreciseTriangle* entry, std::uint32_t count) {
+    const auto* const begin = reinterpret_cast<const std::byte*>(entry);
+    for (std::size_t at = 0; at < count * sizeof(PreciseTriangle); at += 64) __builtin_prefetch(begin + at);
+  }
+
+  PreciseWalkRay ray_;
+  std::uint32_t depth_ = 0;
+  Within within_[most_frames_deep];
+};
+
+/// Whatever its depth.
+template <int K, class Visit>
+HWY_NOINLINE void walk_deep(const PreciseLevel& level, const PreciseRay& ray, Visit& visit) {
+  PreciseWalk<K, stack_entries, Visit> walk(level, ray, visit);
+  while (walk.advance(level, visit) == LeafStep::visit) {
+  }
+}
+
+template <int K, class Visit>
+typename Visit::Answer trace_precise(const PreciseLevel& level, const PreciseRay& ray, RayCounters* counters) {
+  typename Visit::Answer answer{};
+  if (!within_limits(ray)) return answer;
+  Visit visit(ray, answer, counters);
+  PreciseWalk<K, usual_open_ends, Visit> walk(level, ray, visit);
+  LeafStep step;
+  do {
+    step = walk.advance(level, visit);
+  } while (step == LeafStep::visit);
+  if (HWY_UNLIKELY(step == LeafStep::overflow)) walk_deep<K>(level, ray, visit);
+  return answer;
+}
+
+/// Some rays at once in turn: while memory brings the leaf of one, others go on.
+template <int K, class Visit>
+class PreciseBatch {
+  using Answer = typename Visit::Answer;
+
+ public:
+  PreciseBatch(const PreciseLevel& level, std::span<const PreciseRay> rays, std::span<Answer> answers)
+      : level_(level), rays_(rays), answers_(answers) {}
+
+  void run() {
+    std::uint32_t active = 0;
+    while (active < together && load(slots_[active])) ++active;
+    while (active != 0) {
+      for (std::uint32_t i = 0; i < active;) {
+        Slot& slot = slots_[i];
+        const LeafStep step = slot->walk.advance(level_, slot->visit);
+        if (HWY_UNLIKELY(step == LeafStep::overflow)) walk_deep<K>(level_, rays_[slot->number], slot->visit);
+        if (step == LeafStep::visit || load(slot)) {
+          ++i;
+        } else {
+          slot = slots_[--active];
+        }
       }
     }
-    return step == LeafStep::overflow ? FrameEnd::overflow : FrameEnd::done;
+  }
+
+ private:
+  static constexpr std::uint32_t together = 12;
+
+  struct UnderWay {
+    UnderWay(const PreciseLevel& level, const PreciseRay& ray, Answer& answer, std::size_t n)
+        : number(n), visit(ray, answer, nullptr), walk(level, ray, visit) {}
+    std::size_t number;
+    Visit visit;
+    PreciseWalk<K, usual_open_ends, Visit> walk;
+  };
+  using Slot = std::optional<UnderWay>;
+
+  /// False when there is no ray left.
+  bool load(Slot& slot) {
+    for (; next_ < rays_.size(); ++next_) {
+      answers_[next_] = {};
+      if (!within_limits(rays_[next_])) continue;
+      slot.emplace(level_, rays_[next_], answers_[next_], next_);
+      ++next_;
+      return true;
+    }
+    return false;
   }
 
   const PreciseLevel& level_;
-  const PreciseWalkRay ray_;
-  Visit& visit_;
+  std::span<const PreciseRay> rays_;
+  std::span<Answer> answers_;
+  std::size_t next_ = 0;
+  Slot slots_[together];
 };
-
-template <int K, class CountingPolicy>
-PreciseHit closest_precise(const PreciseLevel& level, const PreciseRay& ray, RayCounters* counters) {
-  PreciseHit best;
-  if (!within_limits(ray)) return best;
-  const PreciseSheared sheared = shear(ray);
-  PreciseClosestVisit<CountingPolicy> visit{sheared, best, CountingPolicy(counters)};
-  PreciseWalk<K, decltype(visit)>(level, ray, visit).run();
-  return best;
-}
-
-template <int K, class CountingPolicy>
-bool any_precise(const PreciseLevel& level, const PreciseRay& ray, RayCounters* counters) {
-  if (!within_limits(ray)) return false;
-  const PreciseSheared sheared = shear(ray);
-  PreciseAnyVisit<CountingPolicy> visit{sheared, CountingPolicy(counters)};
-  return PreciseWalk<K, decltype(visit)>(level, ray, visit).run();
-}
 
 template <int K>
 struct PreciseKernelsOf {
   static PreciseHit closest(const PreciseLevel& level, const PreciseRay& ray, RayCounters* counters) {
-    return counters ? closest_precise<K, Counting>(level, ray, counters)
-                    : closest_precise<K, NoCounting>(level, ray, nullptr);
+    return counters ? trace_precise<K, PreciseClosest<Counting>>(level, ray, counters)
+                    : trace_precise<K, PreciseClosest<NoCounting>>(level, ray, nullptr);
   }
   static bool any(const PreciseLevel& level, const PreciseRay& ray, RayCounters* counters) {
-    return counters ? any_precise<K, Counting>(level, ray, counters) : any_precise<K, NoCounting>(level, ray, nullptr);
+    return (counters ? trace_precise<K, PreciseAny<Counting>>(level, ray, counters)
+                     : trace_precise<K, PreciseAny<NoCounting>>(level, ray, nullptr)) != 0;
   }
-  static constexpr PreciseKernels table{closest, any};
+  static void closest_batch(const PreciseLevel& level, std::span<const PreciseRay> rays, std::span<PreciseHit> hits) {
+    PreciseBatch<K, PreciseClosest<NoCounting>>(level, rays, hits).run();
+  }
+  static void any_batch(const PreciseLevel& level, std::span<const PreciseRay> rays, std::span<std::uint8_t> blocked) {
+    PreciseBatch<K, PreciseAny<NoCounting>>(level, rays, blocked).run();
+  }
+  static constexpr PreciseKernels table{closest, any, closest_batch, any_batch};
 };
 
 const PreciseKernels* choose_precise(std::uint32_t k) {

@@ -79,6 +79,9 @@ PreciseLevel encode_precise_level(std::vector<PreciseFrameTree> trees, double re
   PreciseLevel level;
   level.k = widest <= 4 ? 4 : widest <= 8 ? 8 : 16;
   level.reach = reach;
+  std::size_t references = 0;
+  for (const PreciseFrameTree& frame : trees) references += frame.tree.references.size();
+  reserve_large(level.entries, references);
   for (const auto& [center, scale, tree, content] : trees) {
     if (tree.empty()) continue;
     PreciseFrame& frame = level.frames.emplace_back();

@@ -7,11 +7,15 @@
 #include "boxwood/precise.h"
 #include "layout/layout.h"
 #include "layout/wide/wide_nodes.h"
+#include "math/large_memory.h"
 #include "recipe/stage.h"
 #include "trace/precise_triangle.h"
 #include "tree/tree.h"
 
 namespace boxwood {
+
+/// Frames within frames; no deeper, because each is at most 2^-10 of the one around it and they end at 2^-28.
+inline constexpr std::uint32_t most_frames_deep = 4;
 
 /// Wide nodes of single-precision boxes in a space of their own: x there is (x - center) * scale. A box that floats
 /// hold around a centre of its own is off by 2^-24 of the frame, not of the world.
@@ -38,7 +42,7 @@ struct PreciseFrameTree {
   DoubleVec3 center;
   double scale = 1;
   Tree tree;
-  std::vector<PreciseTriangle> content;
+  LargeVector<PreciseTriangle> content;
 };
 
 /// Lays out trees in nodes of 4, 8 or 16 children, the fewest that hold those of all. Throws UsageError on wider trees.

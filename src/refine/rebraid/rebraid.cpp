@@ -15,7 +15,7 @@ Tree keep(const RebraidOptions&, Tree tree) { return tree; }
 
 Stage rebraid_stage() {
   OptionsOf<RebraidOptions> options;
-  options.real("references", &RebraidOptions::references, 1, 64, "to parts of meshes at most, per instance");
+  options.real("references", &RebraidOptions::references, 1, 64, "to parts of meshes, at most, per instance");
   Stage stage =
       refinement_stage<RebraidOptions>("rebraid", "of overlapping instances, parts are placed instead of the whole",
                                        "Benthin et al. 2017", options, keep, nullptr);
