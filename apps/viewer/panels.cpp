@@ -51,7 +51,7 @@ void recipe_field(const char* label, std::string& recipe, const std::vector<std:
     }
     for (const Preset& preset : presets()) {
       if (ImGui::Selectable(preset.name.c_str())) recipe = preset.name;
-      tip(preset.text);
+      tip(text_here(preset));
     }
     ImGui::EndCombo();
   }

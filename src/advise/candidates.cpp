@@ -121,7 +121,7 @@ class Collector {
 
 std::vector<Recipe> candidate_recipes() {
   Collector all;
-  for (const Preset& preset : presets()) all.add(preset.text);
+  for (const Preset& preset : presets()) all.add(text_here(preset));
   for (const std::string_view tail : chains) {
     for (const std::string_view builder : usual_builders) all.add(fmt::format("{} > {}", builder, tail));
   }

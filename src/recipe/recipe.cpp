@@ -162,7 +162,7 @@ Recipe Recipe::parse(std::string_view written) {
   const std::string line = on_one_line(written);
   const std::string_view text = trim(line);
   for (const Preset& preset : presets()) {
-    if (text == preset.name) return parse(preset.text);
+    if (text == preset.name) return parse(text_here(preset));
   }
   std::vector<StageCall> calls;
   for (std::string_view rest = text;;) {

@@ -1,4 +1,6 @@
 // Every stage of every recipe, one line each, and the presets. This is the only file that knows them all.
+#include <hwy/targets.h>
+
 #include "build/exhaustive/stages.h"
 #include "build/morton/stages.h"
 #include "build/octree/stages.h"
@@ -63,13 +65,19 @@ const std::vector<Stage>& stages() {
   return all;
 }
 
+const std::string& text_here(const Preset& preset) {
+  static const bool has_avx512 = (hwy::SupportedTargets() & HWY_AVX3) != 0;
+  return has_avx512 && !preset.text_avx512.empty() ? preset.text_avx512 : preset.text;
+}
+
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
       {"fast", "ploc(radius=4, block=4, run=4) > collapse(8) > wide(8)", "quick to build"},
       {"default", "ploc(block=4, run=4) > reinsert > optimal-collapse(8) > wide(8)",
        "a good tree, small in memory, quick to build"},
       {"best", "spatial(alpha=0.001, bins=8, block=4) > reinsert > optimal-collapse(8) > wide(8)",
-       "fewest tests per ray; slow to build"},
+       "fewest tests per ray; slow to build",
+       "spatial(alpha=0.001, bins=8, block=8) > reinsert > optimal-collapse(16, leaf=8, block=8) > wide(16)"},
       {"compact", "ploc(block=4, run=4) > reinsert > optimal-collapse(8, leaf=8, block=8) > compressed(8)",
        "least memory, slower rays; the scene must outlive the structure"},
   };

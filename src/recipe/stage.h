@@ -91,7 +91,11 @@ struct Preset {
   std::string name;
   std::string text;
   std::string summary;
+  std::string text_avx512 = {};  ///< where registers have 512 bits; empty: the same
 };
+
+/// What a preset stands for on this machine.
+const std::string& text_here(const Preset& preset);
 
 /// Every stage there is, in the order in which `boxwood recipes` prints them. A new stage is one line here.
 const std::vector<Stage>& stages();

@@ -105,6 +105,7 @@ Table preset_table(std::span<const Preset> presets, std::string_view code) {
   Table table({{"preset", Align::left}, {"stands for", Align::left}, {"", Align::left}});
   for (const Preset& preset : presets) {
     table.add({quoted(preset.name, code), quoted(preset.text, code), preset.summary});
+    if (!preset.text_avx512.empty()) table.add({"", quoted(preset.text_avx512, code), "the same with AVX-512"});
   }
   return table;
 }

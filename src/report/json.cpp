@@ -150,7 +150,10 @@ Json to_json(std::span<const Stage> stages, std::span<const Preset> presets) {
   }
   Json preset_list = Json::array();
   for (const Preset& preset : presets) {
-    preset_list.push_back({{"name", preset.name}, {"recipe", preset.text}, {"summary", preset.summary}});
+    preset_list.push_back({{"name", preset.name},
+                           {"recipe", preset.text},
+                           {"recipe_avx512", preset.text_avx512.empty() ? preset.text : preset.text_avx512},
+                           {"summary", preset.summary}});
   }
   Json cost_list = Json::array();
   for (const CostModelEntry& model : cost_models()) {

@@ -155,7 +155,12 @@ TEST(Recipe, LineBreaksAreBlanksAndOtherControlCharactersAreRefused) {
 }
 
 TEST(Recipe, PresetsAreValidRecipes) {
-  for (const Preset& preset : presets()) EXPECT_NO_THROW(Recipe::parse(preset.name)) << preset.name;
+  for (const Preset& preset : presets()) {
+    for (const std::string& text : {preset.name, preset.text, preset.text_avx512}) {
+      if (text.empty()) continue;
+      EXPECT_NO_THROW(Recipe::parse(text)) << preset.name;
+    }
+  }
   EXPECT_FALSE(first_of(StageKind::builder).empty());
 }
 
