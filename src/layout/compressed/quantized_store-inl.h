@@ -157,6 +157,7 @@ struct QuantizedStore {
     const std::byte* place = is_leaf(reference) ? names : node;
     for (std::size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(place + line);
   }
+  static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) { prefetch(view, reference); }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -12,6 +12,7 @@
 #include "layout/simd/single-inl.h"
 #include "layout/simd/steps16-inl.h"
 #include "layout/simd/steps8-inl.h"
+#include "layout/simd/stream-inl.h"
 #include "layout/simd/wide_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -68,7 +69,8 @@ struct InFlight {
   }
 };
 
-/// Coherent groups of 64 go as packets, all between them as rays in flight.
+/// Coherent groups of 64 go as packets, all between them as rays in flight or, when only whether they are blocked is
+/// asked, as streams.
 template <class Steps>
 struct Batch {
   using Store = typename Steps::Store;
@@ -90,11 +92,23 @@ struct Batch {
           return any_hits_of_group<Store>(view, group, blocked.data() + begin);
         },
         [&](std::size_t begin, std::size_t size) {
-          InFlight<Steps>::any(view, rays.subspan(begin, size), blocked.subspan(begin, size));
+          any_between(view, rays.subspan(begin, size), blocked.subspan(begin, size), size < rays.size());
         });
   }
 
  private:
+  /// As streams where rays share nodes, else in flight.
+  static void any_between(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                          bool among_groups) {
+    while (!rays.empty()) {
+      const std::size_t done = any_by_streams<Store>(view, rays, blocked, among_groups);
+      rays = rays.subspan(done), blocked = blocked.subspan(done);
+      const std::size_t next = std::min(stream_pause, rays.size());
+      InFlight<Steps>::any(view, rays.first(next), blocked.first(next));
+      rays = rays.subspan(next), blocked = blocked.subspan(next);
+    }
+  }
+
   /// Cuts the batch into coherent groups and the runs between them. After a group that was not worth it, ever more are
   /// passed over, so that a batch that only looks coherent loses little.
   template <class OnGroup, class OnRun>

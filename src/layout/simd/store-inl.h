@@ -35,9 +35,17 @@ struct PlainStore {
     return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
   }
   /// Of the first four lines of either.
-  static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
+  static HWY_INLINE void prefetch(const WideView& view, WideReference reference) { prefetch_lines<4>(view, reference); }
+  /// Of as many lines as a node has.
+  static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) {
+    prefetch_lines<sizeof(WideNode<N>) / 64>(view, reference);
+  }
+
+ private:
+  template <int Lines>
+  static HWY_INLINE void prefetch_lines(const WideView& view, WideReference reference) {
     const std::byte* place = view.base + std::size_t{reference} * 16;
-    for (int line = 0; line < 4; ++line) __builtin_prefetch(place + 64 * line);
+    for (int line = 0; line < Lines; ++line) __builtin_prefetch(place + 64 * line);
   }
 };
 

@@ -1,0 +1,305 @@
+// Any hits by streams: rays of one octant (the signs of their directions) walk the tree together, each node with the
+// list of those that enter it. A node is fetched, unpacked and its planes chosen once for all of them, no ray has a
+// stack of its own, and rays that are blocked drop out. After Barringer and Akenine-Moeller 2014, "Dynamic Ray Stream
+// Traversal". Compiled once per instruction set that has eight lanes.
+#if defined(BOXWOOD_LAYOUT_SIMD_STREAM_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_LAYOUT_SIMD_STREAM_INL_H
+#undef BOXWOOD_LAYOUT_SIMD_STREAM_INL_H
+#else
+#define BOXWOOD_LAYOUT_SIMD_STREAM_INL_H
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "layout/simd/leaf_steps-inl.h"
+#include "layout/simd/load_rays-inl.h"
+#include "layout/simd/single-inl.h"
+#include "layout/simd/slots-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood {
+namespace HWY_NAMESPACE {
+#if HWY_MAX_BYTES >= 32
+
+inline constexpr std::uint32_t most_in_stream = 1024;
+/// Rays gathered by octant at a time.
+inline constexpr std::size_t stream_block = 4096;
+/// Levels of nodes that a stream has room for, and entries of their lists. Nodes below go ray by ray.
+inline constexpr std::uint32_t stream_depth = 48;
+inline constexpr std::uint32_t stream_entries = 8192;
+
+/// A node on the way from the root to where a stream is.
+struct StreamLevel {
+  std::uint32_t begin, size;  // its part of the lists: the rays that enter it
+  std::uint32_t left;         // children that some ray meets and the stream has not been to yet, a bit each
+  std::uint32_t leaves;       // children that are leaves
+  alignas(64) WideReference children[16];
+};
+
+struct StreamMemory {
+  Slot slots[most_in_stream];
+  alignas(64) std::uint32_t rays[stream_entries];  // offsets of slots
+  alignas(64) std::uint16_t met[stream_entries];   // which children of the level's node each of them meets, a bit each
+  StreamLevel levels[stream_depth];
+
+  HWY_INLINE Slot& slot(std::uint32_t offset) {
+    return *reinterpret_cast<Slot*>(reinterpret_cast<std::byte*>(slots) + offset);
+  }
+};
+
+/// A blocked ray gets a limit before its beginning and so meets nothing more.
+HWY_INLINE void note(Slot& slot, bool found, std::uint8_t* blocked) {
+  blocked[slot.index] |= found ? 1 : 0;
+  slot.t_limit = found ? -std::numeric_limits<float>::infinity() : slot.t_limit;
+}
+
+/// The rays of a list against a leaf that all of them enter. The list has room for one more.
+template <class Store>
+HWY_INLINE void any_in_shared_leaf(const WideView& view, WideReference leaf, StreamMemory& memory, std::uint32_t* list,
+                                   std::uint32_t size, std::uint8_t* blocked) {
+  typename Store::BlockBuffer buffer;
+  list[size] = list[size - 1];  // an odd last ray is its own partner
+  bool more = true;
+  for (std::size_t number = 0; more; ++number) {
+    const auto& block = Store::block(view, leaf, number, buffer);
+    more = (block.primitives[0] & more_blocks) != 0;
+#if HWY_TARGET <= HWY_AVX3
+    if constexpr (Store::triangles == 8) {
+      for (std::uint32_t i = 0; i < size; i += 2) {
+        Slot &a = memory.slot(list[i]), &b = memory.slot(list[i + 1]);
+        const std::uint32_t bits = bits_of(BlockPair::D(), BlockPair{block, block}.hit(a, b).hit);
+        note(a, (bits & 0xff) != 0, blocked);
+        note(b, (bits & 0xff00) != 0, blocked);
+      }
+      continue;
+    }
+#endif
+    for (std::uint32_t i = 0; i < size; ++i) {
+      Slot& slot = memory.slot(list[i]);
+      note(slot, any_in_block(block, slot.leaf, slot.t_near, slot.t_limit), blocked);
+    }
+  }
+}
+
+template <class Store>
+class AnyStream {
+  static constexpr int N = Store::children;
+  using D = Floats<N>;
+  using V = hn::Vec<D>;
+  using Words = hn::RebindToUnsigned<D>;
+
+ public:
+  /// Sets those of `blocked` that are, and leaves the others.
+  AnyStream(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked, StreamMemory& memory)
+      : view_(view), rays_(rays), blocked_(blocked.data()), memory_(memory) {}
+
+  /// Traces the rays with these indices, all of one octant, a bit per axis: set where the direction is negative.
+  void trace(std::span<const std::uint16_t> indices, std::uint32_t octant) {
+    for (std::uint32_t axis = 0; axis < 3; ++axis) near_row_[axis] = 2 * axis + (octant >> axis & 1);
+    const std::uint32_t size = load(indices);
+    if (size != 0) walk(size);
+  }
+
+  /// Of all streams so far: how many rays entered a node together, on average.
+  double rays_per_node() const { return static_cast<double>(visits_) / static_cast<double>(nodes_); }
+
+ private:
+  /// Prepares the rays that can hit something; returns how many.
+  HWY_INLINE std::uint32_t load(std::span<const std::uint16_t> indices) {
+    std::uint32_t size = 0;
+    for (std::size_t begin = 0; begin < indices.size(); begin += 8) {
+      const std::size_t count = std::min<std::size_t>(8, indices.size() - begin);
+      const auto index = [&](std::size_t i) { return indices[begin + std::min(i, count - 1)]; };
+      const std::uint32_t first = size;
+      const std::uint32_t valid = load_eight<Store::row_bytes>(
+          view_.reach, [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[index(i)]; },
+          [&](std::size_t i) HWY_ATTR -> Slot& { return memory_.slots[first + i]; });
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if ((valid >> i & 1) == 0) continue;
+        if (size != first + i) memory_.slots[size] = memory_.slots[first + i];
+        memory_.slots[size++].index = index(i);
+      }
+    }
+    return size;
+  }
+
+  /// Leaves of a node first: what they block need not go into its other children.
+  HWY_INLINE void walk(std::uint32_t size) {
+    for (std::uint32_t i = 0; i < size; ++i) memory_.rays[i] = i * static_cast<std::uint32_t>(sizeof(Slot));
+    StreamLevel* level = memory_.levels;
+    open(*level, view_.root, 0, size);
+    while (true) {
+      if (level->left == 0) {
+        if (level == memory_.levels) return;
+        --level;
+        continue;
+      }
+      const std::uint32_t leaves = level->left & level->leaves;
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(leaves != 0 ? leaves : level->left));
+      level->left &= ~(1u << lane);
+      const std::uint32_t begin = level->begin + room_for(level->size);
+      const std::uint32_t count = list_rays(*level, lane, memory_.rays + begin);
+      const WideReference child = level->children[lane];
+      if (leaves != 0) {
+        any_in_shared_leaf<Store>(view_, child, memory_, memory_.rays + begin, count, blocked_);
+      } else if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
+        one_by_one(child, memory_.rays + begin, count);
+      } else {
+        open(*++level, child, begin, count);
+      }
+    }
+  }
+
+  /// Entries that a list takes: whole vectors are written behind its end.
+  static constexpr std::uint32_t room_for(std::uint32_t size) { return (size + 31) & ~15u; }
+
+  /// Writes those of a level's rays that meet the child in `lane` to `out`, and returns how many.
+  HWY_INLINE std::uint32_t list_rays(const StreamLevel& level, std::uint32_t lane, std::uint32_t* out) const {
+    const WidestWords d;
+    const hn::Rebind<std::uint16_t, WidestWords> halves;
+    const auto bit = hn::Set(d, 1u << lane);
+    std::uint32_t count = 0;
+    for (std::uint32_t i = level.begin; i < level.begin + level.size; i += lanes_of<WidestWords>) {
+      const auto met = hn::PromoteTo(d, hn::Load(halves, memory_.met + i));
+      count += compress_store<WidestWords>(hn::Load(d, memory_.rays + i), hn::TestBit(met, bit), out + count);
+    }
+    return count;
+  }
+
+  /// Tests which children the rays of a list meet.
+  HWY_INLINE void open(StreamLevel& level, WideReference reference, std::uint32_t begin, std::uint32_t size) {
+    const Words dw;
+    typename Store::NodeBuffer buffer;
+    const WideNode<N>& node = Store::node(view_, reference, buffer);
+    level.begin = begin;
+    level.size = size;
+    level.left = level.leaves = 0;
+    std::fill_n(memory_.met + begin, size + 16, std::uint16_t{0});
+    for (int first = 0; first < N; first += lanes_of<D>) {
+      level.left |= meet(node, first, memory_.rays + begin, memory_.met + begin, size);
+      const auto children = hn::Load(dw, node.children + first);
+      level.leaves |= bits_of(D(), hn::RebindMask(D(), hn::TestBit(children, hn::Set(dw, 1)))) << first;
+      hn::Store(children, dw, level.children + first);
+    }
+    if (view_.out_of_cache) {
+      for (std::uint32_t left = level.left; left != 0; left &= left - 1) {
+        Store::prefetch_all(view_, level.children[std::countr_zero(left)]);
+      }
+    }
+    visits_ += size;
+    ++nodes_;
+  }
+
+  /// Notes for each ray which of the children from `first` on it meets; returns which any of them does.
+  HWY_INLINE std::uint32_t meet(const WideNode<N>& node, int first, const std::uint32_t* rays, std::uint16_t* met,
+                                std::uint32_t size) const {
+    const D d;
+    const auto row = [&](std::uint32_t number) HWY_ATTR { return hn::Load(d, node.planes[number] + first); };
+    const V near_x = row(near_row_[0]), near_y = row(near_row_[1]), near_z = row(near_row_[2]);
+    const V far_x = row(near_row_[0] ^ 1), far_y = row(near_row_[1] ^ 1), far_z = row(near_row_[2] ^ 1);
+    std::uint32_t any = 0;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const Slot& ray = memory_.slot(rays[i]);
+      const V x = hn::Set(d, ray.inverse[0]), y = hn::Set(d, ray.inverse[1]), z = hn::Set(d, ray.inverse[2]);
+      const auto plane = [&](V planes, V inverse, float offset)
+                             HWY_ATTR { return hn::MulSub(planes, inverse, hn::Set(d, offset)); };
+      const V entry = hn::Max(hn::Max(plane(near_x, x, ray.near_offset[0]), plane(near_y, y, ray.near_offset[1])),
+                              hn::Max(plane(near_z, z, ray.near_offset[2]), hn::Set(d, ray.t_near)));
+      const V exit = hn::Min(hn::Min(plane(far_x, x, ray.far_offset[0]), plane(far_y, y, ray.far_offset[1])),
+                             hn::Min(plane(far_z, z, ray.far_offset[2]), hn::Set(d, ray.t_limit)));
+      const std::uint32_t bits = bits_of(d, hn::Le(entry, exit)) << first;
+      met[i] = static_cast<std::uint16_t>(met[i] | bits);
+      any |= bits;
+    }
+    return any;
+  }
+
+  HWY_NOINLINE void one_by_one(WideReference node, const std::uint32_t* list, std::uint32_t size) const {
+    WideView below = view_;
+    below.root = node;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      Slot& slot = memory_.slot(list[i]);
+      note(slot, any_hit<Store>(below, prepare(rays_[slot.index], view_.reach), CountNothing{}), blocked_);
+    }
+  }
+
+  const WideView& view_;
+  std::span<const Ray> rays_;
+  std::uint8_t* blocked_;
+  StreamMemory& memory_;
+  std::uint32_t near_row_[3] = {};
+  std::uint64_t visits_ = 0, nodes_ = 0;
+};
+
+/// The rays of a block, octant by octant.
+struct Octants {
+  std::uint16_t indices[8][stream_block];
+  std::uint32_t sizes[8] = {};
+
+  HWY_INLINE explicit Octants(std::span<const Ray> rays) {
+    const hn::FixedTag<std::int32_t, 4> d;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto direction = hn::BitCast(d, hn::LoadU(FourFloats(), &rays[i].direction.x));
+      const std::uint32_t octant = bits_of_four(hn::RebindMask(FourFloats(), hn::Lt(direction, hn::Zero(d)))) & 7;
+      indices[octant][sizes[octant]++] = static_cast<std::uint16_t>(i);
+    }
+  }
+};
+
+/// Streams are for rays that share nodes: when fewer than this enter one together, rays in flight are faster.
+inline constexpr double least_together = 9;
+/// How many show whether they do, and how many are traced in flight before the next look.
+inline constexpr std::size_t stream_probe = 512, stream_pause = 4 * stream_block;
+/// Fewer are not worth their lists, even those that lie between coherent groups, which need no probe.
+inline constexpr std::size_t least_stream = 64;
+
+/// Whether rays start near those before them, most of them: what scattered rays do not, at the price of a look at some.
+HWY_INLINE bool start_close(std::span<const Ray> rays, float reach) {
+  constexpr std::size_t step = 8;
+  std::size_t looks = 0, close = 0;
+  for (std::size_t i = step; i < rays.size(); i += step, ++looks) {
+    const Vec3 way = rays[i].origin - rays[i - 1].origin;
+    close += std::fabs(way.x) + std::fabs(way.y) + std::fabs(way.z) < reach / 16 ? 1 : 0;
+  }
+  return close * 4 >= looks * 3;
+}
+
+/// Traces rays from the first on for as long as it pays, and returns how many. `among_groups`: coherent groups are
+/// before or behind them.
+template <class Store>
+HWY_NOINLINE std::size_t any_by_streams(const WideView& view, std::span<const Ray> rays,
+                                        std::span<std::uint8_t> blocked, bool among_groups) {
+  const std::size_t first = among_groups ? stream_block : stream_probe;
+  const std::size_t least = among_groups ? least_stream : stream_probe;
+  if (rays.size() < least || !start_close(rays.first(std::min(rays.size(), stream_probe)), view.reach)) return 0;
+  StreamMemory memory;
+  std::size_t done = 0;
+  while (done < rays.size()) {
+    const std::size_t size = std::min(done == 0 ? first : stream_block, rays.size() - done);
+    const auto part = rays.subspan(done, size);
+    const auto answers = blocked.subspan(done, size);
+    std::ranges::fill(answers, std::uint8_t{0});
+    AnyStream<Store> stream(view, part, answers, memory);
+    const Octants octants(part);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      std::span<const std::uint16_t> left(octants.indices[octant], octants.sizes[octant]);
+      while (!left.empty()) {
+        const std::size_t taken = std::min<std::size_t>(most_in_stream, left.size());
+        stream.trace(left.first(taken), octant);
+        left = left.subspan(taken);
+      }
+    }
+    done += size;
+    if (!(stream.rays_per_node() >= least_together)) break;
+  }
+  return done;
+}
+
+#endif  // HWY_MAX_BYTES >= 32
+}  // namespace HWY_NAMESPACE
+}  // namespace boxwood
+HWY_AFTER_NAMESPACE();
+#endif

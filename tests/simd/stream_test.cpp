@@ -1,0 +1,133 @@
+// Large batches of rays that start close together, which any-hit queries trace by streams: the answers of the triangle
+// test over all triangles, on every instruction set and however deep the tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "layout/compressed/compressed_kernels.h"
+#include "layout/compressed/quantized_arena.h"
+#include "layout/simd/simd_layout.h"
+#include "layout/simd/wide_simd.h"
+#include "simd/test_targets.h"
+#include "simd/test_trees.h"
+#include "trace/brute_force.h"
+
+namespace boxwood {
+namespace {
+
+/// In every direction from a small region, some of them short, parallel to an axis, unlimited at both ends or invalid;
+/// more than two blocks of them, so that one is not full.
+std::vector<Ray> rays_around(const Vec3& center) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  TestRandom random(23);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 9001; ++i) {
+    Ray ray{center + random.point(-0.05f, 0.05f), 0, random.point(-1, 1), random.between(0, 2)};
+    if (i % 37 == 0) ray.direction = {0, -0.0f, i % 2 == 0 ? 1.0f : -1.0f};
+    if (i % 41 == 0) ray.t_near = -infinity, ray.t_far = infinity;
+    if (i % 43 == 0) ray.direction = {0, 0, 0};
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// Every inner node has one leaf, of the triangle with its number, and the rest.
+Tree chain(const Mesh& mesh) {
+  Tree tree;
+  const auto size = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::vector<Box> rests(size);
+  Box rest;
+  const auto box = [&](std::uint32_t triangle) {
+    Box out;
+    for (const std::uint32_t vertex : mesh.triangles[triangle]) out.grow(mesh.positions[vertex]);
+    return out;
+  };
+  for (std::uint32_t i = size; i-- > 0;) rest.grow(box(i)), rests[i] = rest;
+  const auto add = [&](const Box& bounds, std::uint32_t first, std::uint32_t count, bool leaf) {
+    Tree::Node node;
+    node.bounds = bounds;
+    node.first = first;
+    node.count = count & Tree::max_count;
+    node.leaf = leaf ? 1 : 0;
+    tree.nodes.push_back(node);
+  };
+  add(rests[0], 1, 2, false);
+  for (std::uint32_t i = 0; i < size; ++i) tree.references.push_back(i);
+  for (std::uint32_t i = 0; i + 1 < size; ++i) {
+    const bool last = i + 2 == size;
+    add(box(i), i, 1, true);
+    add(rests[i + 1], last ? i + 1 : 2 * i + 3, last ? 1 : 2, last);
+  }
+  return tree;
+}
+
+std::shared_ptr<const Layout> encode_compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
+  using Compressed = SimdLayout<QuantizedArena>;
+  if (width == 8)
+    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh), compressed_kernels<8>());
+  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh), compressed_kernels<16>());
+}
+
+/// What any-hit queries of a scene are to answer.
+struct Expected {
+  explicit Expected(const Scene& scene) : rays(rays_around(scene.bounds().center())) {
+    std::vector<Hit> hits(rays.size());
+    BruteForce(scene).closest_hits(rays, hits);
+    for (const Hit& hit : hits) blocked.push_back(hit.valid() ? 1 : 0);
+  }
+  void compare(const Layout& layout, const char* what) const {
+    std::vector<std::uint8_t> found(rays.size(), 7);
+    layout.any_hits(rays, found);
+    const auto different = std::ranges::mismatch(found, blocked).in1 - found.begin();
+    EXPECT_EQ(different, std::ssize(found)) << "first ray that differs, in " << what;
+  }
+
+  std::vector<Ray> rays;
+  std::vector<std::uint8_t> blocked;
+};
+
+TEST(Streams, AnswerLikeBruteForceOnEveryInstructionSet) {
+  for (const char* name : {"random", "grid", "far_away"}) {
+    const Scene scene = test_scene(name);
+    const Mesh& mesh = scene.meshes.front();
+    Contents contents;
+    contents.mesh = &mesh;
+    const Expected expected(scene);
+    for (const std::int64_t target : testable_targets()) {
+      if (target > HWY_AVX2) continue;  // no streams
+      const OnlyTarget only(target);
+      for (const std::uint32_t width : {8u, 16u}) {
+        const Tree tree = test_tree(mesh, width, 11);
+        expected.compare(*encode_simd_wide(width, tree, contents), name);
+        expected.compare(*encode_compressed(width, tree, mesh), name);
+      }
+    }
+  }
+}
+
+TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  TestRandom random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 a = random.point(-1, 1);
+    add_triangle(positions, triangles, a, a + random.point(-0.2f, 0.2f), a + random.point(-0.2f, 0.2f));
+  }
+  Scene scene;
+  scene.add_mesh(std::move(positions), std::move(triangles));
+  Contents contents;
+  contents.mesh = &scene.meshes.front();
+  const Expected expected(scene);
+  for (const std::uint32_t width : {8u, 16u}) {
+    expected.compare(*encode_simd_wide(width, chain(scene.meshes.front()), contents), "a chain");
+  }
+}
+
+}  // namespace
+}  // namespace boxwood
