@@ -35,11 +35,16 @@ std::uint32_t arity(const CollapseOptions& options) {
   return 1u << std::min(merged_levels(options), 26u);
 }
 
-/// The children that a node gets, in the order of its leaves.
+/// The children that a node gets, in the order of its leaves. For one node after the other.
 class Lifted {
  public:
-  Lifted(const Tree& tree, std::uint32_t node)
-      : tree_(tree), axis_(tree.nodes[node].axis), fixed_order_(tree.nodes[node].fixed_order) {
+  explicit Lifted(const Tree& tree) : tree_(tree) {}
+
+  /// Begins with the children that a node has.
+  void begin(std::uint32_t node) {
+    axis_ = tree_.nodes[node].axis;
+    fixed_order_ = tree_.nodes[node].fixed_order;
+    nodes_.clear();
     append_children(node);
   }
 
@@ -101,8 +106,8 @@ class Lifted {
 
   const Tree& tree_;
   std::vector<std::uint32_t> nodes_;
-  std::uint32_t axis_;
-  bool fixed_order_;
+  std::uint32_t axis_ = Tree::mixed_axis;
+  bool fixed_order_ = false;
 };
 
 /// Throws when the options make no sense, or not for this tree.
@@ -136,11 +141,12 @@ Tree collapse(const CollapseOptions& options, Tree tree) {
     std::uint32_t from, to;  // a node of the old tree, its place in the new one
   };
   std::vector<Pending> stack{{0, 0}};
+  Lifted lifted(tree);
   while (!stack.empty()) {
     const Pending pending = stack.back();
     stack.pop_back();
     if (tree.nodes[pending.from].is_leaf()) continue;
-    Lifted lifted(tree, pending.from);
+    lifted.begin(pending.from);
     if (options.method == Method::area) {
       lifted.open_by_area(options.k);
     } else {

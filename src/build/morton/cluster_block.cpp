@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "build/float4.h"
+
 namespace boxwood {
 namespace {
 

@@ -17,7 +17,7 @@ namespace boxwood {
 using Lanes [[gnu::vector_size(16)]] = float;
 
 /// Four rows of x, y, z and anything become rows of four x, y, z. Row r goes to out + r * stride.
-void store_transposed(const Lanes (&rows)[4], float* out, std::size_t stride) {
+inline void store_transposed(const Lanes (&rows)[4], float* out, std::size_t stride) {
   const Lanes xy01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
   const Lanes xy23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
   const Lanes z01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
