@@ -39,6 +39,7 @@ class NodeWriter {
   }
   void write(std::byte* place) const {
     WideNode<N>& node = *new (place) WideNode<N>;
+    auto* const planes = reinterpret_cast<float*>(place);
     for (std::size_t lane = 0; lane < N; lane += 4) {
       Lanes lower[4], upper[4];
       for (std::size_t i = 0; i < 4; ++i) {
@@ -46,14 +47,15 @@ class NodeWriter {
         std::memcpy(&lower[i], bytes, sizeof(Lanes));
         std::memcpy(&upper[i], bytes + sizeof(Vec3), sizeof(Lanes));
       }
-      store_transposed(lower, node.planes[0] + lane, 2 * N);
-      store_transposed(upper, node.planes[1] + lane, 2 * N);
+      store_transposed(lower, planes + lane, 2 * N);
+      store_transposed(upper, planes + N + lane, 2 * N);
     }
     std::copy_n(children_, N, node.children);
   }
 
  private:
   static_assert(offsetof(Tree::Node, bounds) == 0 && sizeof(Tree::Node) >= sizeof(Vec3) + sizeof(Lanes));
+  static_assert(offsetof(WideNode<N>, planes) == 0);
   static constexpr Tree::Node nothing{};
 
   const Tree::Node* nodes_[N];
@@ -82,6 +84,8 @@ class LeafWriter {
   static constexpr std::size_t triangles_ahead = 32, positions_ahead = 16;
 
   void write_block(LeafBlock<L>& block, std::size_t first, std::size_t count) const {
+    static_assert(offsetof(LeafBlock<L>, vertices) == 0);
+    auto* const vertices = reinterpret_cast<float*>(&block);
     const Triangle* triangles[L];
     for (std::size_t lane = 0; lane < L; ++lane) {
       block.primitives[lane] = references_[first + (lane < count ? lane : 0)];
@@ -95,7 +99,7 @@ class LeafWriter {
           // What is missing is a single point.
           rows[i] = position((*triangles[lane + i])[lane + i < count ? vertex : 0]);
         }
-        store_transposed(rows, block.vertices[vertex][0] + lane, L);
+        store_transposed(rows, vertices + 3 * vertex * L + lane, L);
       }
     }
   }
