@@ -250,9 +250,9 @@ struct Octants {
 };
 
 /// Streams are for rays that share nodes: when fewer than this enter one together, rays in flight are faster.
-inline constexpr double least_together = 9;
+inline constexpr double least_together = 7.5;
 /// How many show whether they do, and how many are traced in flight before the next look.
-inline constexpr std::size_t stream_probe = 512, stream_pause = 4 * stream_block;
+inline constexpr std::size_t stream_probe = 256, stream_pause = 4 * stream_block;
 /// Fewer are not worth their lists, even those that lie between coherent groups, which are not looked at first.
 inline constexpr std::size_t least_stream = 64;
 
