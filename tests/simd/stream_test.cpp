@@ -28,7 +28,7 @@ std::vector<Ray> rays_around(const Vec3& center) {
   TestRandom random(23);
   std::vector<Ray> rays;
   for (int i = 0; i < 9001; ++i) {
-    Ray ray{center + random.point(-0.05f, 0.05f), 0, random.point(-1, 1), random.between(0, 2)};
+    Ray ray{center + random.point(-0.01f, 0.01f), 0, random.point(-1, 1), random.between(0, 2)};
     if (i % 37 == 0) ray.direction = {0, -0.0f, i % 2 == 0 ? 1.0f : -1.0f};
     if (i % 41 == 0) ray.t_near = -infinity, ray.t_far = infinity;
     if (i % 43 == 0) ray.direction = {0, 0, 0};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "build/morton/radix_sort.h"
 
@@ -54,7 +55,8 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
   const Vec3 extent = bounds.extent();
   const float size = std::max({extent.x, extent.y, extent.z});
   const auto cells = static_cast<float>(1u << axis_bits);
-  const float scale = size > 0 ? cells / size : 0;
+  // Not infinite for denormal sizes: zero times infinity is no cell.
+  const float scale = size > 0 ? std::min(cells / size, std::numeric_limits<float>::max()) : 0;
 
   MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits};
   RawArray<std::uint64_t> scratch(references.size());

@@ -250,10 +250,10 @@ struct Octants {
 };
 
 /// Streams are for rays that share nodes: when fewer than this enter one together, rays in flight are faster.
-inline constexpr double least_together = 9;
+inline constexpr double least_together = 7.5;
 /// How many show whether they do, and how many are traced in flight before the next look.
-inline constexpr std::size_t stream_probe = 512, stream_pause = 4 * stream_block;
-/// Fewer are not worth their lists, even those that lie between coherent groups, which need no probe.
+inline constexpr std::size_t stream_probe = 256, stream_pause = 4 * stream_block;
+/// Fewer are not worth their lists, even those that lie between coherent groups, which are not looked at first.
 inline constexpr std::size_t least_stream = 64;
 
 /// Whether rays start near those before them, most of them: what scattered rays do not, at the price of a look at some.
@@ -274,7 +274,8 @@ HWY_NOINLINE std::size_t any_by_streams(const WideView& view, std::span<const Ra
                                         std::span<std::uint8_t> blocked, bool among_groups) {
   const std::size_t first = among_groups ? stream_block : stream_probe;
   const std::size_t least = among_groups ? least_stream : stream_probe;
-  if (rays.size() < least || !start_close(rays.first(std::min(rays.size(), stream_probe)), view.reach)) return 0;
+  if (rays.size() < least) return 0;
+  if (!among_groups && !start_close(rays.first(stream_probe), view.reach)) return 0;
   StreamMemory memory;
   std::size_t done = 0;
   while (done < rays.size()) {
