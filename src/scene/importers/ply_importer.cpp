@@ -81,7 +81,7 @@ class PlyReader {
   std::uint64_t list_length(const PlyProperty& list) {
     const double length = values_.read(list.count_type);
     if (values_.ended()) return 0;
-    if (!(length >= 0) || !values_.can_hold(static_cast<std::uint64_t>(length), list.type)) {
+    if (!(length >= 0 && length < 0x1p32) || !values_.can_hold(static_cast<std::uint64_t>(length), list.type)) {
       throw Error(fmt::format("{}: a list '{}' of length {} does not fit the file; the file is damaged, get it again",
                               values_.place(), list.name, length));
     }
