@@ -104,7 +104,7 @@ TEST(Streams, AnswerLikeBruteForceOnEveryInstructionSet) {
       const OnlyTarget only(target);
       for (const std::uint32_t width : {8u, 16u}) {
         const Tree tree = test_tree(mesh, width, 11);
-        expected.compare(*encode_simd_wide(width, tree, contents), name);
+        expected.compare(*encode_simd_wide(width, tree, contents, {}), name);
         expected.compare(*encode_compressed(width, tree, mesh), name);
       }
     }
@@ -125,7 +125,7 @@ TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
   contents.mesh = &scene.meshes.front();
   const Expected expected(scene);
   for (const std::uint32_t width : {8u, 16u}) {
-    expected.compare(*encode_simd_wide(width, chain(scene.meshes.front()), contents), "a chain");
+    expected.compare(*encode_simd_wide(width, chain(scene.meshes.front()), contents, {}), "a chain");
   }
 }
 
