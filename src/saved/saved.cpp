@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "layout/layout.h"
+#include "layout/saved_kind.h"
 #include "layout/saved_level.h"
 #include "recipe/stage.h"
 #include "saved/section_file.h"
@@ -161,10 +162,11 @@ void check_fits(const Structure& structure, const Scene& scene) {
   }
   check(top->facts.primitives <= scene.instances.size(), "or more instances", top->facts.primitives,
         scene.instances.size());
-  check(scene.meshes.size() == top->bottoms.size(), "meshes", top->bottoms.size(), scene.meshes.size());
-  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-    const std::optional<SavedLevel> level = top->bottoms[m]->saved();
-    if (level) check_mesh(*level, m);
+  // Opened instances place several structures of one mesh each.
+  std::vector<std::optional<SavedLevel>> bottoms;
+  for (const auto& bottom : top->bottoms) bottoms.push_back(bottom->saved());
+  for (const SavedInstance& placed : elements_of<SavedInstance>(top->leaves, "instances")) {
+    if (bottoms[placed.bottom]) check_mesh(*bottoms[placed.bottom], scene.instances[placed.instance].mesh);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "layout/layout.h"
+#include "layout/saved_level.h"
 #include "saved/files.h"
 #include "support/rays.h"
 #include "support/scenes.h"
@@ -128,6 +130,22 @@ TEST(SavedStructure, OtherLayoutsAreRefusedByName) {
       EXPECT_NE(std::string(error.what()).find("cannot be saved"), std::string::npos);
     }
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.boxwood")));
+  }
+}
+
+TEST(SavedStructure, OfOpenedInstancesFitsItsScene) {
+  const Folder folder;
+  const Scene scene = load("generate:instances(count=30, detail=16, spacing=0.5)");
+  const std::vector<Ray> rays = troubling_rays(scene, 60, 5);
+  for (const char* layout : {"wide(8)", "collapse(8) > compressed(8)"}) {
+    const std::string head = "binned > rebraid(references=8) > ";
+    const Structure built = build(scene, head + layout);
+    save(built, folder.file("opened.boxwood"));
+    const Structure loaded = load_structure(folder.file("opened.boxwood"));
+    EXPECT_TRUE(Answers(loaded, rays) == Answers(built, rays)) << layout;
+    EXPECT_NO_THROW(check_fits(loaded, scene)) << layout;
+    EXPECT_THROW(check_fits(loaded, test::instances()), Error) << layout;
+    EXPECT_GT(built.layout()->saved()->bottoms.size(), scene.meshes.size()) << layout;
   }
 }
 
