@@ -126,14 +126,14 @@ void free_large(void* memory) noexcept { blocks().free(static_cast<std::byte*>(m
 void prefer_huge_pages(void* begin, std::size_t bytes) {
   if (bytes == 0) return;
   constexpr int collapse = 25;  // MADV_COLLAPSE, which older headers lack; older systems refuse it.
-  const auto at = [](std::uintptr_t address) { return reinterpret_cast<void*>(address); };
-  const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(begin) / huge_page * huge_page;
-  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes - 1) / huge_page * huge_page;
-  madvise(at(first), last + huge_page - first, MADV_HUGEPAGE);
+  const std::size_t into_page = reinterpret_cast<std::uintptr_t>(begin) % huge_page;
+  std::byte* const first = static_cast<std::byte*>(begin) - into_page;
+  const std::size_t last = (into_page + bytes - 1) / huge_page * huge_page;
+  madvise(first, last + huge_page, MADV_HUGEPAGE);
   // At either end lies memory of others, at least the heap's header, which has been touched: such pages become huge
   // only by collapsing them. That fails where the heap ends within.
-  madvise(at(first), huge_page, collapse);
-  if (last != first) madvise(at(last), huge_page, collapse);
+  madvise(first, huge_page, collapse);
+  if (last != 0) madvise(first + last, huge_page, collapse);
 }
 
 #else

@@ -88,7 +88,7 @@ Recipe random_recipe(Random& random) {
   constexpr int attempts = 1000;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     try {
-      const Recipe recipe = Recipe::parse(random_text(random));
+      Recipe recipe = Recipe::parse(random_text(random));
       if (answers_exactly(recipe.stages())) return recipe;
     } catch (const UsageError&) {  // they do not fit
     }

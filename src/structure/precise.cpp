@@ -108,7 +108,7 @@ PreciseStructure build_precise(std::span<const DoubleVec3> vertices, std::span<c
       report.sah_cost += sah_cost(frame.tree);
     }
     if (!frames.empty()) report.bounds = world_bounds(frames[0]);
-    level = std::make_shared<const PreciseLevel>(encode_precise_level(std::move(frames), reach));
+    level = std::make_shared<const PreciseLevel>(encode_precise_level(frames, reach));
     report.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   });
   report.bytes = level->bytes();

@@ -74,7 +74,7 @@ std::size_t PreciseLevel::bytes() const {
   return sum;
 }
 
-PreciseLevel encode_precise_level(std::vector<PreciseFrameTree> trees, double reach) {
+PreciseLevel encode_precise_level(const std::vector<PreciseFrameTree>& trees, double reach) {
   const std::uint32_t widest = widest_node(trees);
   PreciseLevel level;
   level.k = widest <= 4 ? 4 : widest <= 8 ? 8 : 16;
@@ -114,7 +114,7 @@ std::shared_ptr<const Layout> encode_precise(Tree tree, const Contents& contents
   frame.tree = std::move(tree);
   std::vector<PreciseFrameTree> frames;
   frames.push_back(std::move(frame));
-  return std::make_shared<PreciseLayout>(encode_precise_level(std::move(frames), static_cast<double>(reach)));
+  return std::make_shared<PreciseLayout>(encode_precise_level(frames, static_cast<double>(reach)));
 }
 
 }  // namespace boxwood

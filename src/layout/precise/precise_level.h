@@ -46,7 +46,7 @@ struct PreciseFrameTree {
 };
 
 /// Lays out trees in nodes of 4, 8 or 16 children, the fewest that hold those of all. Throws UsageError on wider trees.
-PreciseLevel encode_precise_level(std::vector<PreciseFrameTree> trees, double reach);
+PreciseLevel encode_precise_level(const std::vector<PreciseFrameTree>& trees, double reach);
 
 /// A layout in double precision over one mesh in single: rays are widened and hits are rounded. Closest and any hits
 /// only. Throws UsageError on `contents` with instances.

@@ -29,7 +29,8 @@ class LeafWalk {
   using D = Floats<K>;
 
  public:
-  LeafWalk() {}  // leaves the room for open ends as it is: filling it would take longer than many a walk
+  // Leaves the room for open ends as it is: filling it would take longer than many a walk.
+  LeafWalk() {}  // NOLINT(clang-analyzer-optin.cplusplus.UninitializedObject): start() comes first
   /// False when the ray meets nothing.
   template <class CountingPolicy>
   HWY_INLINE bool start(const WideNodes& nodes, const Reach& extent, const Ray& ray, CountingPolicy& counting) {
