@@ -11,39 +11,10 @@
 namespace boxwood {
 namespace {
 
-/// A chain: every inner node has one leaf and the rest. `triangles` - 1 levels.
-Tree chain(const Mesh& mesh) {
-  const std::vector<Box> boxes = test::triangle_boxes(mesh);
-  Tree tree;
-  Box rest;
-  std::vector<Box> rests(boxes.size());
-  for (std::size_t i = boxes.size(); i-- > 0;) {
-    rest.grow(boxes[i]);
-    rests[i] = rest;
-    tree.references.push_back(static_cast<std::uint32_t>(boxes.size() - 1 - i));
-  }
-  const auto add = [&](const Box& bounds, std::uint32_t first, std::uint32_t count, bool leaf) {
-    Tree::Node node;
-    node.bounds = bounds;
-    node.first = first;
-    node.count = count & Tree::max_count;
-    node.leaf = leaf ? 1 : 0;
-    tree.nodes.push_back(node);
-  };
-  const auto count = static_cast<std::uint32_t>(boxes.size());
-  add(rests[0], 1, 2, false);
-  for (std::uint32_t i = 0; i + 1 < count; ++i) {
-    add(boxes[i], i, 1, true);
-    const bool last = i + 2 == count;
-    add(rests[i + 1], last ? i + 1 : 2 * i + 3, last ? 1 : 2, last);
-  }
-  return tree;
-}
-
 std::shared_ptr<const Layout> encode_chain(const Scene& scene, const Stage& stage, const TraceOptions& trace) {
   Contents contents;
   contents.mesh = &scene.meshes[0];
-  return stage.encode(stage.defaults, chain(scene.meshes[0]), contents, trace);
+  return stage.encode(stage.defaults, test::chain(scene.meshes[0]), contents, trace);
 }
 
 TEST(DeepTree, IsWalkedToItsEnd) {

@@ -16,6 +16,7 @@
 #include "layout/simd/wide_simd.h"
 #include "simd/test_targets.h"
 #include "simd/test_trees.h"
+#include "support/trees.h"
 #include "trace/brute_force.h"
 
 namespace boxwood {
@@ -35,36 +36,6 @@ std::vector<Ray> rays_around(const Vec3& center) {
     rays.push_back(ray);
   }
   return rays;
-}
-
-/// Every inner node has one leaf, of the triangle with its number, and the rest.
-Tree chain(const Mesh& mesh) {
-  Tree tree;
-  const auto size = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<Box> rests(size);
-  Box rest;
-  const auto box = [&](std::uint32_t triangle) {
-    Box out;
-    for (const std::uint32_t vertex : mesh.triangles[triangle]) out.grow(mesh.positions[vertex]);
-    return out;
-  };
-  for (std::uint32_t i = size; i-- > 0;) rest.grow(box(i)), rests[i] = rest;
-  const auto add = [&](const Box& bounds, std::uint32_t first, std::uint32_t count, bool leaf) {
-    Tree::Node node;
-    node.bounds = bounds;
-    node.first = first;
-    node.count = count & Tree::max_count;
-    node.leaf = leaf ? 1 : 0;
-    tree.nodes.push_back(node);
-  };
-  add(rests[0], 1, 2, false);
-  for (std::uint32_t i = 0; i < size; ++i) tree.references.push_back(i);
-  for (std::uint32_t i = 0; i + 1 < size; ++i) {
-    const bool last = i + 2 == size;
-    add(box(i), i, 1, true);
-    add(rests[i + 1], last ? i + 1 : 2 * i + 3, last ? 1 : 2, last);
-  }
-  return tree;
 }
 
 std::shared_ptr<const Layout> encode_compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
@@ -125,7 +96,7 @@ TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
   contents.mesh = &scene.meshes.front();
   const Expected expected(scene);
   for (const std::uint32_t width : {8u, 16u}) {
-    expected.compare(*encode_simd_wide(width, chain(scene.meshes.front()), contents, {}), "a chain");
+    expected.compare(*encode_simd_wide(width, test::chain(scene.meshes.front()), contents, {}), "a chain");
   }
 }
 

@@ -21,6 +21,33 @@ inline std::vector<Box> triangle_boxes(const Mesh& mesh) {
   return boxes;
 }
 
+/// A chain: every inner node has one leaf, of the triangle with its number, and the rest. One level per triangle but
+/// one, of at least two.
+inline Tree chain(const Mesh& mesh) {
+  const std::vector<Box> boxes = triangle_boxes(mesh);
+  const auto count = static_cast<std::uint32_t>(boxes.size());
+  Tree tree;
+  tree.references.resize(count);
+  std::iota(tree.references.begin(), tree.references.end(), 0u);
+  std::vector<Box> rests = boxes;
+  for (std::uint32_t i = count - 1; i-- > 0;) rests[i].grow(rests[i + 1]);
+  const auto add = [&](const Box& bounds, std::uint32_t first, std::uint32_t size, bool leaf) {
+    Tree::Node node;
+    node.bounds = bounds;
+    node.first = first;
+    node.count = size & Tree::max_count;
+    node.leaf = leaf ? 1 : 0;
+    tree.nodes.push_back(node);
+  };
+  add(rests[0], 1, 2, false);
+  for (std::uint32_t i = 0; i + 1 < count; ++i) {
+    const bool last = i + 2 == count;
+    add(boxes[i], i, 1, true);
+    add(rests[i + 1], last ? i + 1 : 2 * i + 3, last ? 1 : 2, last);
+  }
+  return tree;
+}
+
 struct SplitTreeOptions {
   std::uint32_t k = 2;
   std::uint32_t leaf_size = 2;

@@ -137,7 +137,7 @@ WideView quantized_view(const std::byte* nodes, const std::uint32_t* primitives,
                         std::span<const Triangle> triangles) {
   WideView view;
   view.base = nodes;
-  view.root = 2;
+  view.root = quantized_root;
   view.primitives = primitives;
   view.positions = positions.data();
   view.triangles = triangles.data();

@@ -36,7 +36,9 @@ inline constexpr std::size_t names_at_once = 8;
 /// Whether names of nodes and of primitives fit 31 bits, of which references use the rest. O(1).
 bool has_quantized_names(const Tree& tree);
 
-/// The view of nodes whose root is the first but one.
+/// The root is the first node but one.
+inline constexpr WideReference quantized_root = 2;
+
 WideView quantized_view(const std::byte* nodes, const std::uint32_t* primitives, std::span<const Vec3> positions,
                         std::span<const Triangle> triangles);
 

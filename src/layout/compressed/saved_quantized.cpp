@@ -7,6 +7,7 @@
 #include "layout/compressed/quantize.h"
 #include "layout/compressed/quantized_arena.h"
 #include "layout/saved_kind.h"
+#include "layout/simd/saved_walk.h"
 #include "layout/simd/simd_layout.h"
 
 namespace boxwood {
@@ -43,16 +44,7 @@ struct KeptQuantized {
   void save(SavedLevel& out) const { out = level; }
 };
 
-/// As the kernels find it, in the same arithmetic; 0 where there is none.
-WideReference child_of(const QuantizedNode8& node, int lane) {
-  if (node.place[lane] == no_child) return wide_nothing;
-  const bool inner = (node.inner >> lane & 1) != 0;
-  return (inner ? node.first_node * 2 : node.first_primitive * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
-}
-WideReference child_of(const QuantizedNode16& node, int lane) { return node.children[lane]; }
-
-/// Walks everything from the root; each node and each name may belong to one thing only, so the walk ends and so do all
-/// others.
+/// What lies where; each node and each name may belong to one thing only.
 template <class Node, int N>
 class QuantizedCheck {
  public:
@@ -68,41 +60,20 @@ class QuantizedCheck {
     }
     node_taken_.resize(nodes_.size());
     name_taken_.resize(leaves_.names.size());
-    pending_.push_back({2, 1});
-    while (!pending_.empty()) {
-      const auto [reference, need] = pending_.back();
-      pending_.pop_back();
-      if (!(is_leaf(reference) ? check_leaf(reference >> 1) : check_node(reference >> 1, need))) {
-        return fmt::format("{} {} is none that any walk could use", is_leaf(reference) ? "leaf" : "node",
-                           reference >> 1);
-      }
-    }
-    return {};
+    const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root, facts_.stack, *this);
+    if (!bad) return {};
+    return fmt::format("{} {} is none that any walk could use", is_leaf(*bad) ? "leaf" : "node", *bad >> 1);
   }
 
- private:
-  struct Pending {
-    WideReference reference;
-    std::uint32_t need;
-  };
-
-  bool check_node(std::uint32_t number, std::uint32_t need) {
-    if (number == 0 || number >= nodes_.size() || node_taken_[number]) return false;
+  const Node* take_node(WideReference reference) {
+    const std::uint32_t number = reference >> 1;
+    if (number == 0 || number >= nodes_.size() || node_taken_[number]) return nullptr;
     node_taken_[number] = true;
-    const Node& node = nodes_[number];
-    std::uint32_t children = 0;
-    while (children < N && child_of(node, static_cast<int>(children)) > wide_finished) ++children;
-    const std::uint32_t below = need + children - (children > 0 ? 1 : 0);
-    if (below > facts_.stack) return false;
-    for (int lane = 0; lane < N; ++lane) {
-      const bool used = lane < static_cast<int>(children);
-      if (!(used ? is_sound(box(node, lane)) : child_of(node, lane) == wide_nothing)) return false;
-      if (used) pending_.push_back({child_of(node, lane), below});
-    }
-    return true;
+    return &nodes_[number];
   }
 
-  bool check_leaf(std::size_t place) {
+  bool take_leaf(WideReference reference) {
+    std::size_t place = reference >> 1;
     if (place == 0) return false;
     for (bool more = true; more; ++place) {
       if (place + names_at_once >= leaves_.names.size() || name_taken_[place]) return false;
@@ -114,6 +85,13 @@ class QuantizedCheck {
     return true;
   }
 
+  /// As the kernels find it, in the same arithmetic; 0 where there is none.
+  static WideReference child(const Node& node, int lane) {
+    if constexpr (N == 16)
+      return node.children[lane];
+    else
+      return child_of_eight(node, lane);
+  }
   static Box box(const Node& node, int lane) {
     Grid grid;
     Box out;
@@ -125,12 +103,19 @@ class QuantizedCheck {
     }
     return out;
   }
+  static bool is_unused(const Node& node, int lane) { return child(node, lane) == wide_nothing; }
+
+ private:
+  static WideReference child_of_eight(const QuantizedNode8& node, int lane) {
+    if (node.place[lane] == no_child) return wide_nothing;
+    const bool inner = (node.inner >> lane & 1) != 0;
+    return (inner ? node.first_node * 2 : node.first_primitive * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
+  }
 
   const SavedFacts& facts_;
   std::span<const Node> nodes_;
   NamesAndMesh leaves_;
   std::vector<bool> node_taken_, name_taken_;
-  std::vector<Pending> pending_;
 };
 
 /// Calls use.template operator()<Node, N>() for the nodes that the level has.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "layout/saved_kind.h"
+#include "layout/simd/saved_walk.h"
 #include "layout/simd/simd_layout.h"
 #include "layout/simd/wide_arena.h"
 
@@ -25,8 +26,7 @@ struct KeptArena {
   }
 };
 
-/// Walks everything from the root; each granule of the arena may belong to one thing only, so the walk ends and so do
-/// all others.
+/// What lies where in an arena; each granule may belong to one thing only.
 template <int N, int L>
 class ArenaCheck {
  public:
@@ -37,50 +37,18 @@ class ArenaCheck {
     if (memory_.size() < wide_offset(wide_reference(64, false)) + sizeof(WideNode<N>)) return "it has no root";
     if (facts_.stack > wide_stack_limit) return "it is deeper than any walk can go";
     if (is_leaf(facts_.root_reference)) return "its root is a leaf";
-    pending_.push_back({facts_.root_reference, 1});
-    while (!pending_.empty()) {
-      const auto [reference, need] = pending_.back();
-      pending_.pop_back();
-      if (!(is_leaf(reference) ? check_leaf(reference) : check_node(reference, need))) {
-        return fmt::format("what lies at byte {} is no proper {}", wide_offset(reference),
-                           is_leaf(reference) ? "leaf" : "node");
-      }
-    }
-    return {};
+    const std::optional<WideReference> bad = find_bad_reference<N>(facts_.root_reference, facts_.stack, *this);
+    if (!bad) return {};
+    return fmt::format("what lies at byte {} is no proper {}", wide_offset(*bad), is_leaf(*bad) ? "leaf" : "node");
   }
 
- private:
-  struct Pending {
-    WideReference reference;
-    std::uint32_t need;
-  };
-
-  bool take(std::size_t offset, std::size_t bytes) {
-    if (offset < 64 || offset + bytes > memory_.size()) return false;
-    const auto begin = taken_.begin() + static_cast<std::ptrdiff_t>(offset / wide_granule);
-    const auto end = begin + static_cast<std::ptrdiff_t>(bytes / wide_granule);
-    if (std::find(begin, end, true) != end) return false;
-    std::fill(begin, end, true);
-    return true;
-  }
-
-  bool check_node(WideReference reference, std::uint32_t need) {
+  const WideNode<N>* take_node(WideReference reference) {
     const std::size_t offset = wide_offset(reference);
-    if (offset % alignof(WideNode<N>) != 0 || !take(offset, sizeof(WideNode<N>))) return false;
-    const auto& node = *reinterpret_cast<const WideNode<N>*>(memory_.data() + offset);
-    std::uint32_t children = 0;
-    while (children < N && node.children[children] > wide_finished) ++children;
-    const std::uint32_t below = need + children - (children > 0 ? 1 : 0);
-    if (below > facts_.stack) return false;
-    for (int lane = 0; lane < N; ++lane) {
-      const bool used = lane < static_cast<int>(children);
-      if (!(used ? is_sound(box(node, lane)) : is_unused(node, lane))) return false;
-      if (used) pending_.push_back({node.children[lane], below});
-    }
-    return true;
+    if (offset % alignof(WideNode<N>) != 0 || !take(offset, sizeof(WideNode<N>))) return nullptr;
+    return reinterpret_cast<const WideNode<N>*>(memory_.data() + offset);
   }
 
-  bool check_leaf(WideReference reference) {
+  bool take_leaf(WideReference reference) {
     bool more = true;
     for (std::size_t offset = wide_offset(reference); more; offset += sizeof(LeafBlock<L>)) {
       if (!take(offset, sizeof(LeafBlock<L>))) return false;
@@ -93,6 +61,7 @@ class ArenaCheck {
     return true;
   }
 
+  static WideReference child(const WideNode<N>& node, int lane) { return node.children[lane]; }
   static Box box(const WideNode<N>& node, int lane) {
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -106,10 +75,19 @@ class ArenaCheck {
     return node.children[lane] == wide_nothing && found.lower == nothing.lower && found.upper == nothing.upper;
   }
 
+ private:
+  bool take(std::size_t offset, std::size_t bytes) {
+    if (offset < 64 || offset + bytes > memory_.size()) return false;
+    const auto begin = taken_.begin() + static_cast<std::ptrdiff_t>(offset / wide_granule);
+    const auto end = begin + static_cast<std::ptrdiff_t>(bytes / wide_granule);
+    if (std::find(begin, end, true) != end) return false;
+    std::fill(begin, end, true);
+    return true;
+  }
+
   std::span<const std::byte> memory_;
   const SavedFacts& facts_;
   std::vector<bool> taken_;
-  std::vector<Pending> pending_;
 };
 
 /// Calls use.template operator()<N, L>() for the nodes and blocks that the level has.
