@@ -1,8 +1,10 @@
 // What happens to a saved structure whose bytes are not those that were written.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstring>
 
+#include "layout/saved_level.h"
 #include "math/random.h"
 #include "saved/files.h"
 #include "saved/section_file.h"
@@ -139,6 +141,30 @@ TEST(DamagedStructure, WrongNodesUnderRightChecksumsAreRefusedOrTracedWithinBoun
   }
   EXPECT_GT(refused, 100u);
   EXPECT_GT(traced, 100u);
+}
+
+std::string with_word(std::string bytes, std::size_t at, std::uint32_t word) {
+  std::memcpy(bytes.data() + at, &word, sizeof word);
+  return bytes;
+}
+
+TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
+  struct Root {
+    const char* recipe;
+    std::size_t children;     // where the first child of the root stands
+    std::uint32_t reference;  // the root's own
+  };
+  // Offsets as wide_node.h and quantized_node.h give them.
+  const Root roots[] = {{"binned > wide(16)", 64 + 384, 4}, {"binned > collapse(16) > compressed(16)", 192 + 112, 2}};
+  const Folder folder;
+  for (const Root& root : roots) {
+    save(build(soup(60, 0.5f, 5), root.recipe), folder.file("good"));
+    const std::string facts = section_bytes(folder.file("good"), 2), nodes = section_bytes(folder.file("good"), 3);
+    rewrite(folder.file("good"), folder.file("bad"), 3, with_word(nodes, root.children, root.reference), 1);
+    EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
+    rewrite(folder.file("good"), folder.file("bad"), 2, with_word(facts, offsetof(SavedFacts, stack), 1), 1);
+    EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
+  }
 }
 
 TEST(DamagedStructure, SectionsOfAnotherSizeAreRefused) {

@@ -158,6 +158,15 @@ TEST(SavedStructure, OfAnotherSceneIsToldApart) {
   EXPECT_THROW(check_fits(one, test::instances()), Error);
   save(build(test::instances(), "binned > wide(8)"), folder.file("two.boxwood"));
   EXPECT_THROW(check_fits(load_structure(folder.file("two.boxwood")), scene), Error);
+  // As many triangles in all, but not in the mesh that each instance places.
+  Scene few_first = soup(10, 0.5f, 1), many_first = soup(20, 0.5f, 2);
+  few_first.meshes.push_back(many_first.meshes[0]);
+  many_first.meshes.push_back(few_first.meshes[0]);
+  for (Scene* each : {&few_first, &many_first}) each->instances.push_back({1, Transform::translate({3, 0, 0})});
+  save(build(few_first, "binned > wide(8)"), folder.file("three.boxwood"));
+  const Structure three = load_structure(folder.file("three.boxwood"));
+  EXPECT_NO_THROW(check_fits(three, few_first));
+  EXPECT_THROW(check_fits(three, many_first), Error);
 }
 
 TEST(SavedStructure, MissingFilesFoldersAndOtherFilesAreRefusedByName) {
