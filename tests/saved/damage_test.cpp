@@ -162,6 +162,11 @@ TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
     const std::string facts = section_bytes(folder.file("good"), 2), nodes = section_bytes(folder.file("good"), 3);
     rewrite(folder.file("good"), folder.file("bad"), 3, with_word(nodes, root.children, root.reference), 1);
     EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
+    // A circle of one child, which needs no more room from turn to turn.
+    std::string alone = with_word(nodes, root.children, root.reference);
+    for (std::size_t lane = 1; lane < 16; ++lane) alone = with_word(alone, root.children + 4 * lane, 0);
+    rewrite(folder.file("good"), folder.file("bad"), 3, alone, 1);
+    EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
     rewrite(folder.file("good"), folder.file("bad"), 2, with_word(facts, offsetof(SavedFacts, stack), 1), 1);
     EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
   }
