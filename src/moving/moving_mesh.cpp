@@ -55,7 +55,7 @@ void MovingMesh::build() {
       }
     }
   }
-  tree_ = pipeline_.tree({std::move(references), &geometry, nullptr});
+  tree_ = pipeline_.mesh_tree({std::move(references), &geometry, nullptr});
   encode();
   if (!tree_.clipped_leaves) start_parts();
 }
@@ -162,7 +162,7 @@ MovingMesh::Update MovingMesh::update(const MotionPolicy& policy) {
 bool MovingMesh::rebuild(const DueParts& due) {
   const MeshGeometry geometry(mesh());
   const auto build_part = [&](std::vector<Reference> references, bool of_triangles) {
-    return pipeline_.tree({std::move(references), of_triangles ? &geometry : nullptr, nullptr});
+    return pipeline_.mesh_tree({std::move(references), of_triangles ? &geometry : nullptr, nullptr});
   };
   try {
     tree_ = rebuild_parts(tree_, parts_, due, arity_, build_part, [&](std::uint32_t i) { return box_of(i); });

@@ -67,6 +67,8 @@ struct Stage {
   /// Of a refinement of how instances are placed: how many references to their parts there may be for each.
   std::function<float(const std::any& options)> references_per_instance;
   LayoutFunction encode;
+  /// Of a layout: puts the children of a mesh's tree into the order it wants them in. Not set: any will do.
+  std::function<void(const std::any& options, const TraceOptions& trace, Tree& tree)> arrange;
   PeerFunction trace_peer;
   /// Most children a node can have: of what a builder makes, of what a layout encodes. A refinement that does not set
   /// it keeps the arity it finds.

@@ -36,6 +36,12 @@ Tree Pipeline::tree(BuildInput input) const {
   return tree;
 }
 
+Tree Pipeline::mesh_tree(BuildInput input) const {
+  Tree out = tree(std::move(input));
+  if (layout_->stage->arrange) layout_->stage->arrange(layout_->options, trace_, out);
+  return out;
+}
+
 float Pipeline::references_per_instance() const {
   for (const StageCall* call : refinements_) {
     if (call->stage->references_per_instance) return call->stage->references_per_instance(call->options);
@@ -57,7 +63,7 @@ std::shared_ptr<const Layout> Pipeline::encode(Tree tree, const Contents& conten
 
 Tree tree_of(const Mesh& mesh, const Recipe& recipe, const KnownUse* use) {
   const MeshGeometry geometry(mesh);
-  return Pipeline(recipe).tree({geometry.references(), &geometry, use});
+  return Pipeline(recipe).mesh_tree({geometry.references(), &geometry, use});
 }
 
 }  // namespace boxwood

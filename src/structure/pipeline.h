@@ -16,6 +16,8 @@ class Pipeline {
 
   /// Builder and refinements.
   Tree tree(BuildInput input) const;
+  /// The same of a mesh's triangles, arranged as the layout wants it.
+  Tree mesh_tree(BuildInput input) const;
   /// How many references to parts of meshes there may be per instance; 1: meshes are placed whole.
   float references_per_instance() const;
   /// Throws UsageError unless that is 1: for those who place what is built already, or moves.

@@ -32,7 +32,7 @@ double milliseconds_since(Clock::time_point begin) {
 /// Adds what it cost to the report. Statistics are taken off the clock.
 Tree build_tree(const Pipeline& pipeline, BuildInput input, BuildReport& report) {
   const auto begin = Clock::now();
-  Tree tree = pipeline.tree(std::move(input));
+  Tree tree = input.geometry ? pipeline.mesh_tree(std::move(input)) : pipeline.tree(std::move(input));
   report.build_ms += milliseconds_since(begin);
   report.nodes += tree.nodes.size();
   report.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;

@@ -9,6 +9,7 @@
 #include "layout/simd/wide_simd.h"
 #include "layout/stages.h"
 #include "options/call.h"
+#include "tree/any_hit_order.h"
 
 namespace boxwood {
 namespace {
@@ -53,6 +54,9 @@ Stage compressed_stage() {
           .positional(),
       encode, [](const CompressedOptions& options) { return options.k; });
   stage.custom = true;
+  stage.arrange = [](const std::any&, const TraceOptions& trace, Tree& tree) {
+    if (trace == TraceOptions{}) order_for_any_hits(tree);
+  };
   return stage;
 }
 

@@ -69,9 +69,15 @@ HWY_INLINE std::uint32_t hit_children(const WideNode<N>& node, int begin, const 
   return bits_of(d, hn::Le(entry, exit)) << begin;
 }
 
-/// Which registers of rays have one that meets the box; bit g for register g.
+/// Which rays of a group are concerned: a bit per register that holds one, and a bit per ray.
+struct Concerned {
+  std::uint32_t registers = 0;
+  std::uint64_t rays = 0;
+};
+
+/// The rays that meet the box.
 template <class Store>
-HWY_INLINE std::uint32_t registers_in_box(const WideView& view, const RayGroup& group, const PostponedBox& box) {
+HWY_INLINE Concerned rays_in_box(const WideView& view, const RayGroup& group, const PostponedBox& box) {
   const GroupLanes d;
   hn::Vec<decltype(d)> near_plane[3], far_plane[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +85,7 @@ HWY_INLINE std::uint32_t registers_in_box(const WideView& view, const RayGroup& 
     near_plane[axis] = hn::Set(d, Store::plane(view, box.parent, near_row, box.lane));
     far_plane[axis] = hn::Set(d, Store::plane(view, box.parent, near_row ^ 1, box.lane));
   }
-  std::uint32_t registers = 0;
+  Concerned out;
   for (int g = 0; g < group_vectors; ++g) {
     auto entry = hn::Load(d, group.t_near.lanes[g]);
     auto exit = hn::Load(d, group.t_limit.lanes[g]);
@@ -88,9 +94,11 @@ HWY_INLINE std::uint32_t registers_in_box(const WideView& view, const RayGroup& 
       entry = hn::Max(hn::MulSub(near_plane[axis], inverse, hn::Load(d, group.near_offset[axis].lanes[g])), entry);
       exit = hn::Min(hn::MulSub(far_plane[axis], inverse, hn::Load(d, group.far_offset[axis].lanes[g])), exit);
     }
-    registers |= static_cast<std::uint32_t>(bits_of(d, hn::Le(entry, exit)) != 0) << g;
+    const std::uint64_t met = bits_of(d, hn::Le(entry, exit));
+    out.registers |= static_cast<std::uint32_t>(met != 0) << g;
+    out.rays |= met << (g * group_lanes);
   }
-  return registers;
+  return out;
 }
 
 /// One triangle against a register of rays: hits within the range of t of each.
@@ -139,6 +147,72 @@ struct GroupHits {
   }
 };
 
+/// Where few rays of a group meet a leaf, each is tested against all triangles of a block at once, instead of each
+/// triangle against registers of rays.
+inline constexpr int few_per_register = 3;
+HWY_INLINE bool are_few(const Concerned& concerned) {
+  return std::popcount(concerned.rays) <= few_per_register * std::popcount(concerned.registers);
+}
+
+/// Calls visit(ray, first lane, block, hits) for each ray and each register of triangles of a leaf: the hits within the
+/// ray's range, that of the group at the time.
+template <class Store, class Visit>
+HWY_INLINE void for_each_ray(const WideView& view, WideReference leaf, std::uint64_t rays, const RayGroup& group,
+                             Visit visit) {
+  using D = Floats<Store::triangles>;
+  const D d;
+  const std::uint32_t axes[3] = {static_cast<std::uint32_t>(group.kx), static_cast<std::uint32_t>(group.ky),
+                                 static_cast<std::uint32_t>(group.kz)};
+  typename Store::BlockBuffer buffer;
+  bool more = true;
+  for (std::size_t number = 0; more; ++number) {
+    const auto& block = Store::block(view, leaf, number, buffer);
+    more = (block.primitives[0] & more_blocks) != 0;
+    for (int begin = 0; begin < Store::triangles; begin += lanes_of<D>) {
+      const Vertices<D> triangle[3] = {load_vertices(d, block, 0, begin, axes), load_vertices(d, block, 1, begin, axes),
+                                       load_vertices(d, block, 2, begin, axes)};
+      for (std::uint64_t left = rays; left != 0; left &= left - 1) {
+        const int ray = std::countr_zero(left);
+        const auto of = [&](const GroupFloats& values) HWY_ATTR { return hn::Set(d, values.of(ray)); };
+        const ShearedRays<D> sheared{of(group.origin[group.kx]), of(group.origin[group.ky]), of(group.origin[group.kz]),
+                                     of(group.shear_x),          of(group.shear_y),          of(group.scale_z)};
+        TriangleHits<D> hits = hit_triangles(d, triangle, sheared);
+        hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, of(group.t_near)), hn::Le(hits.t, of(group.t_limit))));
+        if (!hn::AllFalse(d, hits.hit)) visit(ray, begin, block, hits);
+      }
+    }
+  }
+}
+
+/// closest_in_leaf() ray by ray.
+template <class Store>
+HWY_INLINE bool closest_of_few(const WideView& view, WideReference leaf, std::uint64_t rays, RayGroup& group,
+                               GroupHits& best) {
+  using D = Floats<Store::triangles>;
+  const D d;
+  bool nearer = false;
+  for_each_ray<Store>(view, leaf, rays, group, [&](int ray, int begin, const auto& block, const auto& hits) HWY_ATTR {
+    alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
+    hn::Store(hits.t, d, t);
+    hn::Store(hits.v, d, v);
+    hn::Store(hits.w, d, w);
+    hn::Store(hits.determinant, d, determinant);
+    std::int32_t& primitive = (&best.primitives[0][0])[ray];
+    for (std::uint32_t bits = bits_of(d, hits.hit); bits != 0; bits &= bits - 1) {
+      const int lane = std::countr_zero(bits);
+      const auto number = static_cast<std::int32_t>(block.primitives[begin + lane] & ~more_blocks);
+      if (t[lane] > best.t.of(ray) || (t[lane] == best.t.of(ray) && number >= primitive)) continue;
+      best.t.of(ray) = group.t_limit.of(ray) = t[lane];
+      best.v.of(ray) = v[lane];
+      best.w.of(ray) = w[lane];
+      best.determinant.of(ray) = determinant[lane];
+      primitive = number;
+      nearer = true;
+    }
+  });
+  return nearer;
+}
+
 /// True when a ray's limit came nearer.
 template <class Store>
 HWY_INLINE bool closest_in_leaf(const WideView& view, WideReference leaf, std::uint32_t registers, RayGroup& group,
@@ -171,6 +245,17 @@ HWY_INLINE bool closest_in_leaf(const WideView& view, WideReference leaf, std::u
   return nearer;
 }
 
+/// any_in_leaf() ray by ray.
+template <class Store>
+HWY_INLINE bool any_of_few(const WideView& view, WideReference leaf, std::uint64_t rays, RayGroup& group) {
+  bool found = false;
+  for_each_ray<Store>(view, leaf, rays, group, [&](int ray, int, const auto&, const auto&) HWY_ATTR {
+    group.t_limit.of(ray) = -std::numeric_limits<float>::infinity();
+    found = true;
+  });
+  return found;
+}
+
 /// A ray that is blocked gets a limit before its beginning and so meets nothing more. True when one was.
 template <class Store>
 HWY_INLINE bool any_in_leaf(const WideView& view, WideReference leaf, std::uint32_t registers, RayGroup& group) {
@@ -194,7 +279,7 @@ HWY_INLINE bool any_in_leaf(const WideView& view, WideReference leaf, std::uint3
 inline constexpr int group_budget = 640;
 
 /// Walks the tree for a group, nearest children first; at each leaf that a ray may meet calls
-/// at_leaf(leaf, registers), which returns true when limits changed. False when the budget ran out: the rays lie so
+/// at_leaf(leaf, concerned), which returns true when limits changed. False when the budget ran out: the rays lie so
 /// far apart, for triangles of this size, that they share little, and the walk is not complete.
 template <class Store, class AtLeaf>
 HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf at_leaf) {
@@ -225,10 +310,10 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, AtLeaf a
       if (!(next.entry <= t_limit)) continue;
       current = next.child;
       if (!is_leaf(current)) break;
-      const std::uint32_t registers = registers_in_box<Store>(view, group, next);
-      budget -= 2 + std::popcount(registers);
-      if (registers == 0) continue;
-      if (at_leaf(current, registers)) t_limit = largest_of(group.t_limit);
+      const Concerned concerned = rays_in_box<Store>(view, group, next);
+      budget -= 2 + std::popcount(concerned.registers);
+      if (concerned.rays == 0) continue;
+      if (at_leaf(current, concerned)) t_limit = largest_of(group.t_limit);
     }
   }
   return false;
@@ -239,8 +324,10 @@ template <class Store>
 HWY_NOINLINE bool closest_hits_of_group(const WideView& view, RayGroup& group, Hit* hits) {
   const GroupLanes d;
   GroupHits best;
-  const auto at_leaf = [&](WideReference leaf, std::uint32_t registers)
-                           HWY_ATTR { return closest_in_leaf<Store>(view, leaf, registers, group, best); };
+  const auto at_leaf = [&](WideReference leaf, const Concerned& concerned) HWY_ATTR {
+    if (are_few(concerned)) return closest_of_few<Store>(view, leaf, concerned.rays, group, best);
+    return closest_in_leaf<Store>(view, leaf, concerned.registers, group, best);
+  };
   if (!walk_group<Store>(view, group, at_leaf)) return false;
   for (int g = 0; g < group_vectors; ++g) {
     const auto determinant = hn::Load(d, best.determinant.lanes[g]);
@@ -261,8 +348,10 @@ HWY_NOINLINE bool closest_hits_of_group(const WideView& view, RayGroup& group, H
 /// False when the group is not worth it; nothing is written then.
 template <class Store>
 HWY_NOINLINE bool any_hits_of_group(const WideView& view, RayGroup& group, std::uint8_t* blocked) {
-  const auto at_leaf = [&](WideReference leaf, std::uint32_t registers)
-                           HWY_ATTR { return any_in_leaf<Store>(view, leaf, registers, group); };
+  const auto at_leaf = [&](WideReference leaf, const Concerned& concerned) HWY_ATTR {
+    if (are_few(concerned)) return any_of_few<Store>(view, leaf, concerned.rays, group);
+    return any_in_leaf<Store>(view, leaf, concerned.registers, group);
+  };
   if (!walk_group<Store>(view, group, at_leaf)) return false;
   for (std::size_t i = 0; i < group_size; ++i) {
     blocked[i] = (&group.t_limit.lanes[0][0])[i] < (&group.t_near.lanes[0][0])[i] ? 1 : 0;

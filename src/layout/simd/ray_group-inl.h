@@ -31,6 +31,9 @@ struct alignas(64) GroupFloats {
 
   /// Eight rays from the eighth part `part` on.
   HWY_INLINE float* eight(int part) { return &lanes[0][0] + part * 8; }
+  /// Of one ray.
+  HWY_INLINE float& of(int ray) { return (&lanes[0][0])[ray]; }
+  HWY_INLINE float of(int ray) const { return (&lanes[0][0])[ray]; }
 };
 
 /// The fields of PreparedRay for 64 rays that share the signs of their directions and their dominant axis, and the

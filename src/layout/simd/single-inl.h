@@ -227,7 +227,11 @@ HWY_INLINE bool any_hit(const WideView& view, const PreparedRay& ray, Count coun
       const WideNode<N>& node = Store::node(view, current, node_buffer);
       std::uint32_t bits = hit_children<N>(node, slabs, ray.t_far, entry);
       count.node(node, bits);
-      for (; bits != 0; bits &= bits - 1) *top++ = node.children[std::countr_zero(bits)];
+      for (; bits != 0; bits &= bits - 1) {
+        const WideReference child = node.children[std::countr_zero(bits)];
+        if (view.out_of_cache) Store::prefetch(view, child);
+        *top++ = child;
+      }
     }
     if (top == stack) return false;
     current = *--top;

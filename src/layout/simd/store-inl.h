@@ -34,8 +34,10 @@ struct PlainStore {
                                               BlockBuffer&) {
     return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
   }
-  /// Of the first four lines of either.
-  static HWY_INLINE void prefetch(const WideView& view, WideReference reference) { prefetch_lines<4>(view, reference); }
+  /// Of the lines that hold a node's planes, or as many of a block.
+  static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
+    prefetch_lines<N == 16 ? 6 : 4>(view, reference);
+  }
   /// Of as many lines as a node has.
   static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) {
     prefetch_lines<sizeof(WideNode<N>) / 64>(view, reference);

@@ -138,7 +138,7 @@ class AnyStream {
         continue;
       }
       const std::uint32_t leaves = level->left & level->leaves;
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(leaves != 0 ? leaves : level->left));
+      const auto lane = static_cast<std::uint32_t>(std::bit_width(leaves != 0 ? leaves : level->left)) - 1;
       level->left &= ~(1u << lane);
       const std::uint32_t begin = level->begin + room_for(level->size);
       const std::uint32_t count = list_rays(*level, lane, memory_.rays + begin);

@@ -42,12 +42,15 @@ std::shared_ptr<const Layout> make(const Tree& tree, const Mesh& mesh) {
 }
 
 bool has_kernels(std::uint32_t width, const Contents& contents, const TraceOptions& trace) {
-  if (width != 4 && width != 8 && width != 16) return false;
-  if (!contents.mesh || trace != TraceOptions{}) return false;
+  if (!contents.mesh || !simd_wide_has_kernels(width, trace)) return false;
   return contents.mesh->triangles.size() < more_blocks;
 }
 
 }  // namespace
+
+bool simd_wide_has_kernels(std::uint32_t width, const TraceOptions& trace) {
+  return (width == 4 || width == 8 || width == 16) && trace == TraceOptions{};
+}
 
 bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace) {
   if (!has_kernels(width, contents, trace)) return false;

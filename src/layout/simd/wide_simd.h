@@ -10,6 +10,9 @@
 
 namespace boxwood {
 
+/// Whether there are SIMD kernels for triangles in such nodes under such a walk: width 4, 8 or 16, default traversal.
+bool simd_wide_has_kernels(std::uint32_t width, const TraceOptions& trace);
+
 /// Whether the SIMD kernels can trace this: width 4, 8 or 16, triangles at the leaves, default traversal, no node of
 /// fixed order or more than `width` children, and a tree that is not absurdly deep. O(nodes).
 bool simd_wide_supports(std::uint32_t width, const Tree& tree, const Contents& contents, const TraceOptions& trace);

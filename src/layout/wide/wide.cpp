@@ -11,6 +11,7 @@
 #include "layout/simd/wide_simd.h"
 #include "layout/stages.h"
 #include "layout/wide/wide_nodes.h"
+#include "tree/any_hit_order.h"
 
 namespace boxwood {
 namespace {
@@ -88,6 +89,9 @@ Stage wide_stage() {
       OptionsOf<WideOptions>().integer("k", &WideOptions::k, 2, 256, "most children per node").positional(), encode,
       [](const WideOptions& options) { return options.k; });
   stage.custom = true;
+  stage.arrange = [](const std::any& options, const TraceOptions& trace, Tree& tree) {
+    if (simd_wide_has_kernels(std::any_cast<const WideOptions&>(options).k, trace)) order_for_any_hits(tree);
+  };
   return stage;
 }
 
