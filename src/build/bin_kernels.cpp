@@ -130,18 +130,24 @@ class BinFiller {
   HWY_INLINE explicit BinFiller(const BinScale& scale)
       : origin_(LoadPoint(scale.origin)), scale_(LoadPoint(scale.scale)), last_(LoadPoint(scale.last)) {}
 
-  HWY_INLINE void Add(const Reference& reference, GrownBox* boxes, std::uint32_t* counts) const {
-    const BoxVector corners = LoadCorners(reference);
-    const PointVector center = SumOfHalves(corners);
-    alignas(16) std::int32_t bins[4];
+  /// Sets places[axis] to that of the reference's bin in the rows.
+  HWY_INLINE void Place(const Reference& reference, std::int32_t* places) const {
+    const PointVector center = SumOfHalves(LoadCorners(reference));
+    alignas(16) constexpr std::int32_t axes[4] = {0, 1, 2, 3};
     for (std::size_t p = 0; p < point_parts; ++p) {
       const auto at = hn::Mul(hn::Sub(center.parts[p], origin_.parts[p]), scale_.parts[p]);
       const auto inside = hn::Max(hn::Min(at, last_.parts[p]), hn::Zero(PointTag()));
-      hn::Store(hn::ConvertTo(PlaceTag(), inside), PlaceTag(), bins + p * point_lanes);
+      const auto bin = hn::ConvertTo(PlaceTag(), inside);
+      const auto axis = hn::Load(PlaceTag(), axes + p * point_lanes);
+      hn::Store(hn::Add(hn::ShiftLeft<2>(bin), axis), PlaceTag(), places + p * point_lanes);
     }
-    const BoxVector box = NegateLower(corners);
+  }
+
+  static HWY_INLINE void Add(const Reference& reference, const std::int32_t* places, GrownBox* boxes,
+                             std::uint32_t* counts) {
+    const BoxVector box = NegateLower(LoadCorners(reference));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t place = 4 * static_cast<std::size_t>(static_cast<std::uint32_t>(bins[axis])) + axis;
+      const auto place = static_cast<std::uint32_t>(places[axis]);
       float* const lanes = boxes[place].lanes;
       StoreBox(Unite(LoadBox(lanes), box), lanes);
       ++counts[place];
@@ -169,12 +175,19 @@ HWY_INLINE void FillSets(std::span<const Reference> references, const BinScale& 
     for (std::uint32_t b = 0; b < places; ++b) StoreBox(EmptyBox(), boxes[s][b].lanes);
     std::fill_n(counts[s], places, 0u);
   }
+  // Places first: boxes are then loaded and stored at addresses that are known long before.
+  constexpr std::size_t chunk = 64;
   const BinFiller filler(scale);
-  std::size_t i = 0;
-  for (; i + sets <= references.size(); i += sets) {
-    for (std::size_t s = 0; s < sets; ++s) filler.Add(references[i + s], boxes[s], counts[s]);
+  alignas(16) std::int32_t of_chunk[chunk][4];
+  for (std::size_t first = 0; first < references.size(); first += chunk) {
+    const std::span<const Reference> some = references.subspan(first, std::min(chunk, references.size() - first));
+    for (std::size_t i = 0; i < some.size(); ++i) filler.Place(some[i], of_chunk[i]);
+    std::size_t i = 0;
+    for (; i + sets <= some.size(); i += sets) {
+      for (std::size_t s = 0; s < sets; ++s) BinFiller::Add(some[i + s], of_chunk[i + s], boxes[s], counts[s]);
+    }
+    for (; i < some.size(); ++i) BinFiller::Add(some[i], of_chunk[i], rows.boxes, rows.counts);
   }
-  for (; i < references.size(); ++i) filler.Add(references[i], rows.boxes, rows.counts);
   for (std::size_t s = 1; s < sets; ++s) {
     for (std::uint32_t b = 0; b < places; ++b) {
       StoreBox(Unite(LoadBox(rows.boxes[b].lanes), LoadBox(boxes[s][b].lanes)), rows.boxes[b].lanes);
