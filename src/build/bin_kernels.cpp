@@ -127,58 +127,82 @@ HWY_INLINE PointVector LoadPoint(const Float4& point) {
 /// Adds references to bins.
 class BinFiller {
  public:
-  HWY_INLINE BinFiller(const BinScale& scale, std::uint32_t* counts)
-      : counts_(counts),
-        origin_(LoadPoint(scale.origin)),
-        scale_(LoadPoint(scale.scale)),
-        last_(LoadPoint(scale.last)) {}
+  HWY_INLINE explicit BinFiller(const BinScale& scale)
+      : origin_(LoadPoint(scale.origin)), scale_(LoadPoint(scale.scale)), last_(LoadPoint(scale.last)) {}
 
-  HWY_INLINE void Add(const Reference& reference, GrownBox* boxes) const {
-    const BoxVector corners = LoadCorners(reference);
-    const PointVector center = SumOfHalves(corners);
-    alignas(16) std::int32_t bins[4];
+  /// Sets places[axis] to that of the reference's bin in the rows.
+  HWY_INLINE void Place(const Reference& reference, std::int32_t* places) const {
+    const PointVector center = SumOfHalves(LoadCorners(reference));
+    alignas(16) constexpr std::int32_t axes[4] = {0, 1, 2, 3};
     for (std::size_t p = 0; p < point_parts; ++p) {
       const auto at = hn::Mul(hn::Sub(center.parts[p], origin_.parts[p]), scale_.parts[p]);
       const auto inside = hn::Max(hn::Min(at, last_.parts[p]), hn::Zero(PointTag()));
-      hn::Store(hn::ConvertTo(PlaceTag(), inside), PlaceTag(), bins + p * point_lanes);
+      const auto bin = hn::ConvertTo(PlaceTag(), inside);
+      const auto axis = hn::Load(PlaceTag(), axes + p * point_lanes);
+      hn::Store(hn::Add(hn::ShiftLeft<2>(bin), axis), PlaceTag(), places + p * point_lanes);
     }
-    const BoxVector box = NegateLower(corners);
+  }
+
+  static HWY_INLINE void Add(const Reference& reference, const std::int32_t* places, GrownBox* boxes,
+                             std::uint32_t* counts) {
+    const BoxVector box = NegateLower(LoadCorners(reference));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t place = 4 * static_cast<std::size_t>(static_cast<std::uint32_t>(bins[axis])) + axis;
+      const auto place = static_cast<std::uint32_t>(places[axis]);
       float* const lanes = boxes[place].lanes;
       StoreBox(Unite(LoadBox(lanes), box), lanes);
-      ++counts_[place];
+      ++counts[place];
     }
   }
 
  private:
-  std::uint32_t* counts_;
   PointVector origin_, scale_, last_;
 };
 
-void FillBins(std::span<const Reference> references, const BinScale& scale, const BinRows& rows) {
-  // Neighbours often fall into the same bin, and a box that has just been stored is long in coming back. So every
-  // second reference goes to bins of its own, unless they are so few that emptying those costs more.
-  constexpr std::size_t few = 64;
+/// Fills `sets` sets of bins, whose references go to them in turn, and unites them in the first, that of the rows.
+template <std::size_t sets>
+HWY_INLINE void FillSets(std::span<const Reference> references, const BinScale& scale, const BinRows& rows) {
+  constexpr std::size_t more = sets > 1 ? sets - 1 : 1;
+  GrownBox more_boxes[more][4 * max_bins_in_rows];
+  std::uint32_t more_counts[more][4 * max_bins_in_rows];
+  GrownBox* boxes[sets] = {rows.boxes};
+  std::uint32_t* counts[sets] = {rows.counts};
+  for (std::size_t s = 1; s < sets; ++s) {
+    boxes[s] = more_boxes[s - 1];
+    counts[s] = more_counts[s - 1];
+  }
   const std::uint32_t places = 4 * rows.bins;
-  const bool apart = references.size() >= few;
-  GrownBox more_boxes[4 * max_bins_in_rows];
-  GrownBox* const second_boxes = apart ? more_boxes : rows.boxes;
-  for (std::uint32_t b = 0; b < places; ++b) {
-    StoreBox(EmptyBox(), rows.boxes[b].lanes);
-    StoreBox(EmptyBox(), second_boxes[b].lanes);
+  for (std::size_t s = 0; s < sets; ++s) {
+    for (std::uint32_t b = 0; b < places; ++b) StoreBox(EmptyBox(), boxes[s][b].lanes);
+    std::fill_n(counts[s], places, 0u);
   }
-  std::fill_n(rows.counts, places, 0u);
-  const BinFiller filler(scale, rows.counts);
-  const std::size_t pairs = references.size() / 2;
-  for (std::size_t i = 0; i < pairs; ++i) {
-    filler.Add(references[2 * i], rows.boxes);
-    filler.Add(references[2 * i + 1], second_boxes);
+  // Places first: boxes are then loaded and stored at addresses that are known long before.
+  constexpr std::size_t chunk = 64;
+  const BinFiller filler(scale);
+  alignas(16) std::int32_t of_chunk[chunk][4];
+  for (std::size_t first = 0; first < references.size(); first += chunk) {
+    const std::span<const Reference> some = references.subspan(first, std::min(chunk, references.size() - first));
+    for (std::size_t i = 0; i < some.size(); ++i) filler.Place(some[i], of_chunk[i]);
+    std::size_t i = 0;
+    for (; i + sets <= some.size(); i += sets) {
+      for (std::size_t s = 0; s < sets; ++s) BinFiller::Add(some[i + s], of_chunk[i + s], boxes[s], counts[s]);
+    }
+    for (; i < some.size(); ++i) BinFiller::Add(some[i], of_chunk[i], rows.boxes, rows.counts);
   }
-  if (references.size() % 2 != 0) filler.Add(references.back(), rows.boxes);
-  for (std::uint32_t b = 0; b < places && apart; ++b) {
-    StoreBox(Unite(LoadBox(rows.boxes[b].lanes), LoadBox(second_boxes[b].lanes)), rows.boxes[b].lanes);
+  for (std::size_t s = 1; s < sets; ++s) {
+    for (std::uint32_t b = 0; b < places; ++b) {
+      StoreBox(Unite(LoadBox(rows.boxes[b].lanes), LoadBox(boxes[s][b].lanes)), rows.boxes[b].lanes);
+      rows.counts[b] += counts[s][b];
+    }
   }
+}
+
+void FillBins(std::span<const Reference> references, const BinScale& scale, const BinRows& rows) {
+  // Neighbours often fall into the same bin, and what has just been stored is long in coming back. So they go to bins
+  // of their own, unless they are so few that emptying those costs more.
+  constexpr std::size_t few = 64, many = 512;
+  if (references.size() < few) return FillSets<1>(references, scale, rows);
+  if (references.size() < many) return FillSets<2>(references, scale, rows);
+  FillSets<4>(references, scale, rows);
 }
 
 HWY_INLINE Box4 ToBox4(const BoxVector& grown) {

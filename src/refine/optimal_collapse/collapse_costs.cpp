@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,33 @@ namespace {
 constexpr std::uint32_t narrow = 8;
 /// Subtrees that tasks solve, about.
 constexpr std::size_t jobs = 256;
+
+using Float4 [[gnu::vector_size(16)]] = float;
+
+/// pairs[i]: least cost of two children as i + 2 nodes, where first[j] and second[j] are the costs of either as up to
+/// j + 1; the last of pairs is arbitrary.
+template <std::uint32_t Width>
+std::array<float, Width> least_of_pairs(const float* first, const float* second) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr std::uint32_t most = Width - 1, registers = Width / 4;
+  // The second child's costs moved up by j are what stands j places before them.
+  std::array<float, 2 * Width> padded;
+  padded.fill(infinity);
+  std::copy_n(second, most, padded.begin() + most);
+  Float4 least[registers];
+  for (Float4& some : least) some = Float4{infinity, infinity, infinity, infinity};
+  for (std::uint32_t j = 0; j < most; ++j) {
+    for (std::uint32_t r = 0; r < registers; ++r) {
+      Float4 moved;
+      std::memcpy(&moved, &padded[most - j + 4 * r], sizeof(moved));
+      const Float4 both = first[j] + moved;
+      least[r] = both < least[r] ? both : least[r];
+    }
+  }
+  std::array<float, Width> pairs;
+  std::memcpy(pairs.data(), least, sizeof(pairs));
+  return pairs;
+}
 
 }  // namespace
 
@@ -100,12 +128,7 @@ void CollapseCosts::solve(std::uint32_t number) {
   references_[number] = references;
   const float* first = costs_of(node.first);
   const float* second = costs_of(node.first + 1);
-  // pairs[i]: least cost of both children as i + 2 nodes.
-  std::array<float, Width - 1> pairs;
-  pairs.fill(std::numeric_limits<float>::infinity());
-  for (std::uint32_t i = 0; i < Width - 1; ++i) {
-    for (std::uint32_t j = 0; i + j < Width - 1; ++j) pairs[i + j] = std::min(pairs[i + j], first[i] + second[j]);
-  }
+  const std::array<float, Width> pairs = least_of_pairs<Width>(first, second);
   const float below = pairs[options_.k - 2];
   costs[Width - 1] = below;
   costs[0] = half_area(node.bounds) + below;
