@@ -12,11 +12,13 @@ namespace {
 /// Cache misses are started this many references ahead.
 constexpr std::size_t prefetch_distance = 16;
 
-/// Of the leaf that the run becomes with one more reference, whose box is `grown`.
-float cost_with_one_more(const Cluster& run, const Box& grown, std::uint32_t leaf_block) {
-  const std::uint32_t blocks = run.leaf_references / leaf_block + 1;
-  return half_area(grown) * static_cast<float>(blocks);
-}
+/// References next to each other on the curve that are one cluster from the start.
+struct Run {
+  Box4 bounds;
+  std::uint32_t place = 0;  ///< of the first
+  std::uint32_t references = 0;
+  float cost = 0;
+};
 
 }  // namespace
 
@@ -26,8 +28,10 @@ BlockBuilder::BlockBuilder(std::span<const Reference> references, const MortonOr
       order_(order),
       options_(options),
       stack_(block_size, 2 * kept_clusters, options),
+      primitives_(block_size),
       runs_(block_size),
-      joins_(block_size) {
+      joins_(block_size),
+      writer_(options.width) {
   // This thread's share: memory that stays untouched costs nothing, growing does.
   const std::size_t share = references.size() / static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   written_nodes_.reserve(2 * share);
@@ -45,38 +49,34 @@ ClusterBlock BlockBuilder::build(std::size_t begin, std::size_t end, std::size_t
   return block;
 }
 
-/// Whether the references of a run are cheaper together with the next one than beside it. Costs leave out the node
-/// above: what is joined here cannot be parted later, so it has to pay for itself.
-bool BlockBuilder::extends(const Cluster& run, const Box& grown, const Box& next) const {
-  return run.leaf_references < options_.run &&
-         cost_with_one_more(run, grown, options_.leaf_block) <= run.cost + half_area(next);
-}
-
-/// Pushes the references as clusters, one each or in runs.
+/// Pushes the references as clusters, one each or in runs: a run is extended where its references are no dearer
+/// together with the next one than beside it. Costs leave out the node above: what is joined here cannot be parted
+/// later, so it has to pay for itself.
 void BlockBuilder::push_references(std::size_t begin, std::size_t end) {
-  Cluster run;
+  const auto push = [&](const Run& run) {
+    runs_[run.place] = run.references;
+    stack_.push({run.bounds.box(), ClusterId::given(run.place), run.place, run.references, run.cost});
+  };
+  Run run;
   for (std::size_t i = begin; i < end; ++i) {
     if (i + prefetch_distance < references_.size()) {
       __builtin_prefetch(&references_[order_.reference(i + prefetch_distance)]);
     }
-    const Box box = references_[order_.reference(i)].box();
-    const Box grown = unite(run.bounds, box);
-    if (i > begin && extends(run, grown, box)) {
-      run.bounds = grown;
-      run.cost = cost_with_one_more(run, grown, options_.leaf_block);
-      ++run.leaf_references;
+    const Reference& reference = references_[order_.reference(i)];
+    primitives_[i - block_begin_] = reference.primitive;
+    const Box4 box = box4(reference);
+    const float area = half_area(box);
+    Box4 grown = run.bounds;
+    grown.grow(box);
+    const float grown_cost = half_area(grown) * static_cast<float>(run.references / options_.leaf_block + 1);
+    if (i > begin && run.references < options_.run && grown_cost <= run.cost + area) {
+      run = {grown, run.place, run.references + 1, grown_cost};
     } else {
-      if (i > begin) push_run(run);
-      const auto place = static_cast<std::uint32_t>(i - block_begin_);
-      run = {box, ClusterId::given(place), place, 1, half_area(box)};
+      if (i > begin) push(run);
+      run = {box, static_cast<std::uint32_t>(i - block_begin_), 1, area};
     }
   }
-  push_run(run);
-}
-
-void BlockBuilder::push_run(const Cluster& run) {
-  runs_[run.free_slot] = run.leaf_references;
-  stack_.push(run);
+  push(run);
 }
 
 /// Leaves at most `target` clusters for [begin, end) on the stack.
@@ -127,10 +127,8 @@ void BlockBuilder::write_root(std::size_t root, ClusterId id) {
 /// Recursion is no deeper than a leaf has references.
 void BlockBuilder::write_references(ClusterId id) {
   if (id.is_given()) {
-    const std::size_t first = block_begin_ + id.number();
-    for (std::size_t i = first; i < first + runs_[id.number()]; ++i) {
-      written_references_.push_back(references_[order_.reference(i)].primitive);
-    }
+    const std::uint32_t* const first = &primitives_[id.number()];
+    written_references_.insert(written_references_.end(), first, first + runs_[id.number()]);
     return;
   }
   write_references(joins_[id.number()].left);

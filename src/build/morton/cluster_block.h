@@ -48,8 +48,6 @@ class BlockBuilder {
 
  private:
   void push_references(std::size_t begin, std::size_t end);
-  void push_run(const Cluster& run);
-  bool extends(const Cluster& run, const Box& grown, const Box& next) const;
   void join(std::size_t begin, std::size_t end, std::size_t target);
   void write(ClusterBlock& block);
   void write_root(std::size_t root, ClusterId id);
@@ -59,7 +57,8 @@ class BlockBuilder {
   const MortonOrder& order_;
   ClusteringOptions options_;
   ClusterStack stack_;
-  std::vector<std::uint32_t> runs_;  ///< references of the clusters that were there before clustering, by place
+  std::vector<std::uint32_t> primitives_;  ///< of the references, by place
+  std::vector<std::uint32_t> runs_;        ///< references of the clusters that were there before clustering, by place
   std::vector<ClusterNode> joins_;
   SubtreeWriter writer_;
   LargeVector<Tree::Node> written_nodes_;  ///< of all blocks

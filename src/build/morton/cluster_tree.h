@@ -5,12 +5,16 @@
 
 namespace boxwood {
 
+/// Most children of a node.
+inline constexpr std::uint32_t max_cluster_width = 16;
+
 /// How clusters are joined and when a subtree becomes a leaf.
 struct ClusteringOptions {
   std::uint32_t radius = 8;      ///< how far along the curve a cluster looks for its partner, 1…max_radius
   std::uint32_t leaf_size = 4;   ///< most references in a leaf
   std::uint32_t leaf_block = 1;  ///< references tested at the price of one
-  std::uint32_t run = 1;  ///< most references next to each other on the curve that are one cluster from the start
+  std::uint32_t run = 1;    ///< most references next to each other on the curve that are one cluster from the start
+  std::uint32_t width = 2;  ///< most children of a node, 2…max_cluster_width
 };
 
 /// What a cluster is: something that was there before clustering (by the place of its first reference), an inner node

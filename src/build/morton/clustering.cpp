@@ -18,6 +18,7 @@ class Clustering {
  public:
   Clustering(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options)
       : order_(order),
+        width_(options.width),
         count_(references.size()),
         builders_([=, &order] { return BlockBuilder(references, order, options); }),
         stacks_([=] { return ClusterStack(2 * kept_clusters, 2 * kept_clusters, options); }) {}
@@ -117,7 +118,7 @@ class Clustering {
     };
     std::vector<Subtree> subtrees;
     top.front().bounds = root.bounds;
-    SubtreeWriter().write(joins_.data(), root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
+    SubtreeWriter(width_).write(joins_.data(), root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
       if (id.is_given()) {
         const RootPlace place = root_place(id);
         if (blocks_[place.block].roots[place.root].id.is_inner()) {
@@ -166,6 +167,7 @@ class Clustering {
   }
 
   const MortonOrder& order_;
+  std::uint32_t width_;
   std::size_t count_;
   Tree tree_;
   RawArray<ClusterNode> joins_;  ///< above the blocks, whose roots own kept_clusters places each

@@ -17,6 +17,7 @@ struct PlocOptions {
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
   std::uint32_t run = 1;
+  std::uint32_t width = 2;
   float presplit = 0;
 };
 
@@ -28,11 +29,14 @@ Tree build_ploc(const PlocOptions& options, BuildInput input) {
     throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
-  Tree tree = cluster(input.references, order,
-                      {options.radius, options.leaf, options.block, std::min(options.run, options.leaf)});
+  Tree tree =
+      cluster(input.references, order,
+              {options.radius, options.leaf, options.block, std::min(options.run, options.leaf), options.width});
   tree.clipped_leaves = cut;
   return tree;
 }
+
+std::uint32_t ploc_arity(const PlocOptions& options) { return options.width; }
 
 }  // namespace
 
@@ -45,11 +49,12 @@ Stage ploc_stage() {
       .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
       .integer("run", &PlocOptions::run, 1, 16,
                "references next to each other on the curve that become a leaf before clustering, where that is cheaper")
+      .integer("width", &PlocOptions::width, 2, max_cluster_width,
+               "most children of a node; those of more than two are made as 'collapse' would, without the binary tree")
       .real("presplit", &PlocOptions::presplit, 0, 4,
             "references that cutting long triangles may add, as a part of all");
   return builder_stage<PlocOptions>("ploc", "joins neighbours along the Morton curve, bottom-up",
-                                    "Meister and Bittner 2018; Benthin et al. 2024", options, build_ploc,
-                                    [](const PlocOptions&) { return 2u; });
+                                    "Meister and Bittner 2018; Benthin et al. 2024", options, build_ploc, ploc_arity);
 }
 
 }  // namespace boxwood

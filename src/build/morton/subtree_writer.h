@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,31 +12,38 @@
 
 namespace boxwood {
 
-/// Writes joined clusters out as tree nodes, depth first with siblings side by side.
+/// Writes joined clusters out as tree nodes, depth first with siblings side by side. Nodes of more than two children
+/// are made by opening the largest inner child as long as there is room: the tree's collapse, without the binary tree.
 class SubtreeWriter {
  public:
+  /// `width`: most children of a node, 2…max_cluster_width.
+  explicit SubtreeWriter(std::uint32_t width) : width_(width) {}
+
   /// Sets out[begin + place], whose bounds are there already, and appends all that is below `id` to `out`; places are
   /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set. An explicit stack:
   /// trees may be deep.
   template <class Finish>
   void write(const ClusterNode* nodes, ClusterId id, std::size_t begin, std::size_t place, LargeVector<Tree::Node>& out,
              Finish&& finish) {
-    visit(id, static_cast<std::uint32_t>(place), out.data() + begin, finish);
+    if (!id.is_inner()) return finish(out[begin + place], id);
+    pending_.push_back({id.number(), static_cast<std::uint32_t>(place)});
     while (!pending_.empty()) {
       const auto [slot, node] = pending_.back();
       pending_.pop_back();
-      const ClusterNode& from = nodes[slot];
-      const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
+      gather_children(nodes, slot);
       const auto first = static_cast<std::uint32_t>(out.size() - begin);
-      out.resize(out.size() + 2);
+      out.resize(out.size() + count_);
       Tree::Node* block = out.data() + begin;
       block[node].first = first;
-      block[node].count = 2;
-      block[node].axis = axis.axis & 3;
-      block[first].bounds = axis.descending ? from.right_bounds : from.left_bounds;
-      block[first + 1].bounds = axis.descending ? from.left_bounds : from.right_bounds;
-      visit(axis.descending ? from.left : from.right, first + 1, block, finish);
-      visit(axis.descending ? from.right : from.left, first, block, finish);
+      block[node].count = count_ & Tree::max_count;
+      block[node].axis = axis_ & 3;
+      for (std::uint32_t c = 0; c < count_; ++c) {
+        block[first + c].bounds = *children_[c].bounds;
+        if (!children_[c].id.is_inner()) finish(block[first + c], children_[c].id);
+      }
+      for (std::uint32_t c = count_; c-- > 0;) {
+        if (children_[c].id.is_inner()) pending_.push_back({children_[c].id.number(), first + c});
+      }
     }
   }
 
@@ -43,16 +51,44 @@ class SubtreeWriter {
   struct Pending {
     std::uint32_t slot, node;
   };
+  struct Child {
+    const Box* bounds;
+    ClusterId id;
+    float area;  ///< half of it; of what cannot be opened -1
 
-  template <class Finish>
-  void visit(ClusterId id, std::uint32_t node, Tree::Node* block, Finish& finish) {
-    if (id.is_inner()) {
-      pending_.push_back({id.number(), node});
-    } else {
-      finish(block[node], id);
+    Child() = default;
+    Child(const Box& box, ClusterId cluster)
+        : bounds(&box), id(cluster), area(cluster.is_inner() ? half_area(box) : -1) {}
+  };
+
+  void gather_children(const ClusterNode* nodes, std::uint32_t slot) {
+    axis_ = put_pair(nodes[slot], 0);
+    count_ = 2;
+    while (count_ < width_) {
+      std::uint32_t largest = 0;
+      for (std::uint32_t c = 1; c < count_; ++c) {
+        if (children_[c].area > children_[largest].area) largest = c;
+      }
+      if (children_[largest].area < 0) return;
+      const ClusterNode& opened = nodes[children_[largest].id.number()];
+      std::copy_backward(children_ + largest + 1, children_ + count_, children_ + count_ + 1);
+      if (put_pair(opened, largest) != axis_) axis_ = Tree::mixed_axis;
+      ++count_;
     }
   }
 
+  /// The two parts of a join, ascending along the axis that is returned.
+  std::uint32_t put_pair(const ClusterNode& from, std::uint32_t place) {
+    const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
+    const Child left(from.left_bounds, from.left), right(from.right_bounds, from.right);
+    children_[place] = axis.descending ? right : left;
+    children_[place + 1] = axis.descending ? left : right;
+    return axis.axis;
+  }
+
+  std::uint32_t width_;
+  Child children_[max_cluster_width];
+  std::uint32_t count_ = 0, axis_ = 0;  ///< of the node that is being written
   std::vector<Pending> pending_;
 };
 
