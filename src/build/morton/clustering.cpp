@@ -118,19 +118,20 @@ class Clustering {
     };
     std::vector<Subtree> subtrees;
     top.front().bounds = root.bounds;
-    SubtreeWriter(width_).write(joins_.data(), root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
-      if (id.is_given()) {
-        const RootPlace place = root_place(id);
-        if (blocks_[place.block].roots[place.root].id.is_inner()) {
-          subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
-          return;
-        }
-      }
-      node.leaf = 1;
-      node.first = static_cast<std::uint32_t>(loose.size());
-      collect(id, loose);
-      node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
-    });
+    SubtreeWriter(width_).write(
+        joins_.data(), SubtreeWriter::NoGroups{}, root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
+          if (id.is_given()) {
+            const RootPlace place = root_place(id);
+            if (!blocks_[place.block].roots[place.root].id.is_leaf()) {
+              subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
+              return;
+            }
+          }
+          node.leaf = 1;
+          node.first = static_cast<std::uint32_t>(loose.size());
+          collect(id, loose);
+          node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
+        });
 
     std::vector<std::size_t> node_places{top.size()}, reference_places{loose.size()};
     for (const ClusterBlock& block : blocks_) {

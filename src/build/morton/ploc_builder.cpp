@@ -17,6 +17,8 @@ struct PlocOptions {
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
   std::uint32_t run = 1;
+  float slack = 1;
+  std::uint32_t group = 1;
   std::uint32_t width = 2;
   float presplit = 0;
 };
@@ -29,9 +31,9 @@ Tree build_ploc(const PlocOptions& options, BuildInput input) {
     throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
-  Tree tree =
-      cluster(input.references, order,
-              {options.radius, options.leaf, options.block, std::min(options.run, options.leaf), options.width});
+  Tree tree = cluster(input.references, order,
+                      {options.radius, options.leaf, options.block, std::min(options.run, options.leaf), options.slack,
+                       std::min(options.group, options.width), options.width});
   tree.clipped_leaves = cut;
   return tree;
 }
@@ -49,6 +51,9 @@ Stage ploc_stage() {
       .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
       .integer("run", &PlocOptions::run, 1, 16,
                "references next to each other on the curve that become a leaf before clustering, where that is cheaper")
+      .integer(
+          "group", &PlocOptions::group, 1, max_cluster_width,
+          "such leaves next to each other that become a node before clustering, where that is cheaper; at most 'width'")
       .integer("width", &PlocOptions::width, 2, max_cluster_width,
                "most children of a node; those of more than two are made as 'collapse' would, without the binary tree")
       .real("presplit", &PlocOptions::presplit, 0, 4,

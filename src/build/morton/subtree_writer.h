@@ -13,24 +13,40 @@
 namespace boxwood {
 
 /// Writes joined clusters out as tree nodes, depth first with siblings side by side. Nodes of more than two children
-/// are made by opening the largest inner child as long as there is room: the tree's collapse, without the binary tree.
+/// are made by opening the largest child that fits as long as there is room: the tree's collapse, without the binary
+/// tree.
 class SubtreeWriter {
  public:
+  struct Child {
+    const Box* bounds;
+    ClusterId id;
+    std::uint32_t parts;  ///< that opening it gives; 0 when it cannot be opened
+    float area;           ///< half of it; of what cannot be opened -1
+  };
+  static Child leaf(const Box& bounds, ClusterId id) { return {&bounds, id, 0, -1}; }
+
+  /// What write() takes where no cluster is a group.
+  struct NoGroups {
+    std::uint32_t size(ClusterId) const { return 0; }
+    void open(ClusterId, Child*) const {}
+  };
+
   /// `width`: most children of a node, 2…max_cluster_width.
   explicit SubtreeWriter(std::uint32_t width) : width_(width) {}
 
   /// Sets out[begin + place], whose bounds are there already, and appends all that is below `id` to `out`; places are
-  /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set. An explicit stack:
+  /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set;
+  /// groups.size(id) and groups.open(id, children) tell what groups consist of. An explicit stack:
   /// trees may be deep.
-  template <class Finish>
-  void write(const ClusterNode* nodes, ClusterId id, std::size_t begin, std::size_t place, LargeVector<Tree::Node>& out,
-             Finish&& finish) {
+  template <class Groups, class Finish>
+  void write(const ClusterNode* nodes, const Groups& groups, ClusterId id, std::size_t begin, std::size_t place,
+             LargeVector<Tree::Node>& out, Finish&& finish) {
     if (!id.is_inner()) return finish(out[begin + place], id);
     pending_.push_back({id.number(), static_cast<std::uint32_t>(place)});
     while (!pending_.empty()) {
       const auto [slot, node] = pending_.back();
       pending_.pop_back();
-      gather_children(nodes, slot);
+      gather_children(nodes, groups, slot);
       const auto first = static_cast<std::uint32_t>(out.size() - begin);
       out.resize(out.size() + count_);
       Tree::Node* block = out.data() + begin;
@@ -51,36 +67,40 @@ class SubtreeWriter {
   struct Pending {
     std::uint32_t slot, node;
   };
-  struct Child {
-    const Box* bounds;
-    ClusterId id;
-    float area;  ///< half of it; of what cannot be opened -1
-
-    Child() = default;
-    Child(const Box& box, ClusterId cluster)
-        : bounds(&box), id(cluster), area(cluster.is_inner() ? half_area(box) : -1) {}
-  };
-
-  void gather_children(const ClusterNode* nodes, std::uint32_t slot) {
-    axis_ = put_pair(nodes[slot], 0);
+  template <class Groups>
+  void gather_children(const ClusterNode* nodes, const Groups& groups, std::uint32_t slot) {
+    axis_ = put_pair(nodes[slot], groups, 0);
     count_ = 2;
-    while (count_ < width_) {
-      std::uint32_t largest = 0;
-      for (std::uint32_t c = 1; c < count_; ++c) {
-        if (children_[c].area > children_[largest].area) largest = c;
+    for (;;) {
+      std::uint32_t largest = count_;
+      float largest_area = -1;
+      for (std::uint32_t c = 0; c < count_; ++c) {
+        if (children_[c].area <= largest_area || count_ - 1 + children_[c].parts > width_) continue;
+        largest = c;
+        largest_area = children_[c].area;
       }
-      if (children_[largest].area < 0) return;
-      const ClusterNode& opened = nodes[children_[largest].id.number()];
-      std::copy_backward(children_ + largest + 1, children_ + count_, children_ + count_ + 1);
-      if (put_pair(opened, largest) != axis_) axis_ = Tree::mixed_axis;
-      ++count_;
+      if (largest == count_) return;
+      const Child opened = children_[largest];
+      std::copy_backward(children_ + largest + 1, children_ + count_, children_ + count_ - 1 + opened.parts);
+      count_ += opened.parts - 1;
+      if (opened.id.is_group()) {
+        groups.open(opened.id, children_ + largest);
+        axis_ = Tree::mixed_axis;
+      } else if (put_pair(nodes[opened.id.number()], groups, largest) != axis_) {
+        axis_ = Tree::mixed_axis;
+      }
     }
   }
 
   /// The two parts of a join, ascending along the axis that is returned.
-  std::uint32_t put_pair(const ClusterNode& from, std::uint32_t place) {
+  template <class Groups>
+  std::uint32_t put_pair(const ClusterNode& from, const Groups& groups, std::uint32_t place) {
+    const auto child = [&](const Box& bounds, ClusterId id) {
+      if (id.is_leaf()) return leaf(bounds, id);
+      return Child{&bounds, id, id.is_group() ? groups.size(id) : 2, half_area(bounds)};
+    };
     const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
-    const Child left(from.left_bounds, from.left), right(from.right_bounds, from.right);
+    const Child left = child(from.left_bounds, from.left), right = child(from.right_bounds, from.right);
     children_[place] = axis.descending ? right : left;
     children_[place + 1] = axis.descending ? left : right;
     return axis.axis;
