@@ -51,6 +51,7 @@ Stage ploc_stage() {
       .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
       .integer("run", &PlocOptions::run, 1, 16,
                "references next to each other on the curve that become a leaf before clustering, where that is cheaper")
+      .real("slack", &PlocOptions::slack, 0, 4, "how much dearer than apart the references of such a leaf may be")
       .integer(
           "group", &PlocOptions::group, 1, max_cluster_width,
           "such leaves next to each other that become a node before clustering, where that is cheaper; at most 'width'")

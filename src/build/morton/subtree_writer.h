@@ -83,11 +83,11 @@ class SubtreeWriter {
       const Child opened = children_[largest];
       std::copy_backward(children_ + largest + 1, children_ + count_, children_ + count_ - 1 + opened.parts);
       count_ += opened.parts - 1;
+      axis_ = Tree::mixed_axis;  // Parts of parts need not ascend.
       if (opened.id.is_group()) {
         groups.open(opened.id, children_ + largest);
-        axis_ = Tree::mixed_axis;
-      } else if (put_pair(nodes[opened.id.number()], groups, largest) != axis_) {
-        axis_ = Tree::mixed_axis;
+      } else {
+        put_pair(nodes[opened.id.number()], groups, largest);
       }
     }
   }
