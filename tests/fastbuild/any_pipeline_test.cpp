@@ -68,8 +68,11 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(
     Fast, TreeOf,
     testing::Values("ploc", "ploc(radius=1, leaf=1)", "ploc(radius=31, morton=60, leaf=8, block=4)", "ploc(morton=3)",
-                    "ploc(block=4, run=4)", "ploc(block=4, run=4, leaf=8) > reinsert > optimal-collapse(8)",
-                    "ploc > reinsert", "median > reinsert(batch=1, rounds=2)", "median(k=8) > reinsert", "spatial",
+                    "ploc(block=4, run=4)", "ploc(width=8)", "ploc(leaf=1, group=2)",
+                    "ploc(radius=4, block=4, run=4, slack=1.5, group=8, width=8)",
+                    "ploc(run=3, slack=4, group=16, width=16, presplit=1)",
+                    "ploc(block=4, run=4, leaf=8) > reinsert > optimal-collapse(8)", "ploc > reinsert",
+                    "median > reinsert(batch=1, rounds=2)", "median(k=8) > reinsert", "spatial",
                     "spatial(alpha=0, budget=2, bins=8, leaf=1)", "spatial(unsplit=off, block=4, leaf=8) > reinsert",
                     "ploc > optimal-collapse(8)", "ploc(presplit=0.5)", "ploc(presplit=2, leaf=1) > reinsert",
                     "spatial > reinsert > optimal-collapse(4, leaf=8)", "median(k=16) > optimal-collapse(3)"),

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "build/morton/morton_order.h"
 #include "build/morton/radix_sort.h"
@@ -70,6 +71,53 @@ TEST(Ploc, RunsOfTheCurve_GroupReferencesAtLittleCost) {
   EXPECT_NE(alone.references, runs.references);
   EXPECT_LT(sah_cost(runs), 1.15 * sah_cost(alone));
   for (const Tree::Node& node : runs.nodes) EXPECT_TRUE(!node.is_leaf() || node.count <= 4);
+}
+
+/// Boxes of inner nodes and of leaves, sorted: what a tree is, whatever its order in memory.
+std::vector<std::array<float, 7>> boxes_of(const Tree& tree) {
+  std::vector<std::array<float, 7>> out;
+  for (const Tree::Node& node : tree.nodes) {
+    const auto& [lower, upper] = node.bounds;
+    out.push_back({lower.x, lower.y, lower.z, upper.x, upper.y, upper.z, static_cast<float>(node.count)});
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+TEST(Ploc, WidthInOneBlock_IsCollapse) {
+  const Triangles triangles("scattered", scattered(1500, 0.05f));
+  for (const std::string k : {"3", "8", "16"}) {
+    EXPECT_EQ(boxes_of(build_tree("ploc(block=4, run=4, width=" + k + ")", triangles)),
+              boxes_of(build_tree("ploc(block=4, run=4) > collapse(" + k + ")", triangles)));
+  }
+}
+
+TEST(Ploc, Width_IsALimitAndCostsAboutWhatCollapseGives) {
+  const Triangles triangles("surface", surface(100));
+  const Tree wide = build_tree("ploc(width=8)", triangles), collapsed = build_tree("ploc > collapse(8)", triangles);
+  for (const Tree::Node& node : wide.nodes) EXPECT_TRUE(node.is_leaf() || node.count <= 8);
+  EXPECT_LT(sah_cost(wide), 1.05 * sah_cost(collapsed));
+}
+
+TEST(Ploc, Groups_CostLittleAndKeepTheWidth) {
+  const Triangles triangles("surface", surface(100));
+  const Tree single = build_tree("ploc(block=4, run=4, width=8)", triangles);
+  for (const std::uint32_t group : {2u, 5u, 8u}) {
+    const Tree grouped = build_tree("ploc(block=4, run=4, group=" + std::to_string(group) + ", width=8)", triangles);
+    EXPECT_NE(grouped.references, single.references);
+    EXPECT_LT(sah_cost(grouped), 1.15 * sah_cost(single)) << group;
+    for (const Tree::Node& node : grouped.nodes) EXPECT_TRUE(node.is_leaf() || node.count <= 8);
+  }
+}
+
+TEST(Ploc, Slack_MakesFewerLeaves) {
+  const Triangles triangles("surface", surface(100));
+  const auto leaves = [&](const std::string& slack) {
+    return statistics(build_tree("ploc(leaf=4, run=4, block=4, group=8, width=8, slack=" + slack + ")", triangles))
+        .leaves;
+  };
+  EXPECT_LT(leaves("1.5"), leaves("1"));
+  EXPECT_LT(leaves("4"), leaves("1.5"));
 }
 
 TEST(Ploc, BlocksOfFour_FillLeaves) {

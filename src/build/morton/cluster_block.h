@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "build/build_input.h"
+#include "build/float4.h"
 #include "build/morton/cluster_stack.h"
 #include "build/morton/morton_order.h"
 #include "build/morton/subtree_writer.h"
@@ -47,19 +48,49 @@ class BlockBuilder {
   ClusterBlock build(std::size_t begin, std::size_t end, std::size_t target);
 
  private:
+  /// References next to each other on the curve that are one leaf from the start.
+  struct Run {
+    Box bounds;
+    std::uint32_t place = 0;  ///< of the first
+    std::uint32_t references = 0;
+    float cost = 0;
+  };
+  /// Runs next to each other that are one node from the start.
+  struct Group {
+    Box4 bounds;
+    std::uint32_t place = 0;  ///< of the first run
+    std::uint32_t runs = 0;
+    float area = 0, cost = 0;  ///< cost: of the runs
+  };
+  /// What the writer asks about groups.
+  struct Groups {
+    const BlockBuilder& builder;
+
+    std::uint32_t size(ClusterId id) const { return builder.groups_[id.number()]; }
+    void open(ClusterId id, SubtreeWriter::Child* children) const;
+  };
+  struct OpenGroup {
+    std::size_t node;
+    std::uint32_t place;
+  };
+
   void push_references(std::size_t begin, std::size_t end);
-  void push_run(const Cluster& run);
-  bool extends(const Cluster& run, const Box& grown, const Box& next) const;
+  void add_run(const Run& run, const Box4& bounds, Group& group);
+  void push(const Group& group);
   void join(std::size_t begin, std::size_t end, std::size_t target);
   void write(ClusterBlock& block);
   void write_root(std::size_t root, ClusterId id);
   void write_references(ClusterId id);
+  void write_group(const OpenGroup& group);
 
   std::span<const Reference> references_;
   const MortonOrder& order_;
   ClusteringOptions options_;
   ClusterStack stack_;
-  std::vector<std::uint32_t> runs_;  ///< references of the clusters that were there before clustering, by place
+  std::vector<std::uint32_t> primitives_;  ///< of the references, by place
+  std::vector<Run> runs_;                  ///< by the place of their first reference
+  std::vector<std::uint32_t> groups_;      ///< runs of each group, by the place of its first reference
+  std::vector<OpenGroup> open_groups_;     ///< that have no children yet
   std::vector<ClusterNode> joins_;
   SubtreeWriter writer_;
   LargeVector<Tree::Node> written_nodes_;  ///< of all blocks

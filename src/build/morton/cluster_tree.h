@@ -5,24 +5,33 @@
 
 namespace boxwood {
 
+/// Most children of a node.
+inline constexpr std::uint32_t max_cluster_width = 16;
+
 /// How clusters are joined and when a subtree becomes a leaf.
 struct ClusteringOptions {
   std::uint32_t radius = 8;      ///< how far along the curve a cluster looks for its partner, 1…max_radius
   std::uint32_t leaf_size = 4;   ///< most references in a leaf
   std::uint32_t leaf_block = 1;  ///< references tested at the price of one
-  std::uint32_t run = 1;  ///< most references next to each other on the curve that are one cluster from the start
+  std::uint32_t run = 1;    ///< most references next to each other on the curve that are one cluster from the start
+  float slack = 1;          ///< how much dearer than apart their references may be
+  std::uint32_t group = 1;  ///< most such clusters next to each other that are one node from the start
+  std::uint32_t width = 2;  ///< most children of a node, 2…max_cluster_width
 };
 
-/// What a cluster is: something that was there before clustering (by the place of its first reference), an inner node
-/// (by its slot), or a node whose references are cheaper tested together.
+/// What a cluster is: a leaf or a node of leaves that was there before clustering (by the place of its first
+/// reference), an inner node (by its slot), or a node whose references are cheaper tested together.
 struct ClusterId {
   static constexpr std::uint32_t given_bit = 1u << 31, leaf_bit = 1u << 30;
   std::uint32_t bits = 0;
 
   static ClusterId given(std::uint32_t place) { return {place | given_bit}; }
+  static ClusterId group(std::uint32_t place) { return {place | given_bit | leaf_bit}; }
   static ClusterId node(std::uint32_t slot, bool leaf) { return {slot | (leaf ? leaf_bit : 0)}; }
   bool is_given() const { return (bits & given_bit) != 0; }
+  bool is_group() const { return (bits & (given_bit | leaf_bit)) == (given_bit | leaf_bit); }
   bool is_inner() const { return (bits & (given_bit | leaf_bit)) == 0; }
+  bool is_leaf() const { return !is_inner() && !is_group(); }
   std::uint32_t number() const { return bits & ~(given_bit | leaf_bit); }
 };
 

@@ -18,6 +18,7 @@ class Clustering {
  public:
   Clustering(std::span<const Reference> references, const MortonOrder& order, const ClusteringOptions& options)
       : order_(order),
+        width_(options.width),
         count_(references.size()),
         builders_([=, &order] { return BlockBuilder(references, order, options); }),
         stacks_([=] { return ClusterStack(2 * kept_clusters, 2 * kept_clusters, options); }) {}
@@ -117,19 +118,20 @@ class Clustering {
     };
     std::vector<Subtree> subtrees;
     top.front().bounds = root.bounds;
-    SubtreeWriter().write(joins_.data(), root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
-      if (id.is_given()) {
-        const RootPlace place = root_place(id);
-        if (blocks_[place.block].roots[place.root].id.is_inner()) {
-          subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
-          return;
-        }
-      }
-      node.leaf = 1;
-      node.first = static_cast<std::uint32_t>(loose.size());
-      collect(id, loose);
-      node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
-    });
+    SubtreeWriter(width_).write(
+        joins_.data(), SubtreeWriter::NoGroups{}, root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
+          if (id.is_given()) {
+            const RootPlace place = root_place(id);
+            if (!blocks_[place.block].roots[place.root].id.is_leaf()) {
+              subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
+              return;
+            }
+          }
+          node.leaf = 1;
+          node.first = static_cast<std::uint32_t>(loose.size());
+          collect(id, loose);
+          node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
+        });
 
     std::vector<std::size_t> node_places{top.size()}, reference_places{loose.size()};
     for (const ClusterBlock& block : blocks_) {
@@ -166,6 +168,7 @@ class Clustering {
   }
 
   const MortonOrder& order_;
+  std::uint32_t width_;
   std::size_t count_;
   Tree tree_;
   RawArray<ClusterNode> joins_;  ///< above the blocks, whose roots own kept_clusters places each

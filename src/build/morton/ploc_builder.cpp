@@ -17,6 +17,9 @@ struct PlocOptions {
   std::uint32_t leaf = 4;
   std::uint32_t block = 1;
   std::uint32_t run = 1;
+  float slack = 1;
+  std::uint32_t group = 1;
+  std::uint32_t width = 2;
   float presplit = 0;
 };
 
@@ -29,10 +32,13 @@ Tree build_ploc(const PlocOptions& options, BuildInput input) {
   }
   const MortonOrder order = morton_order(input.references, options.morton);
   Tree tree = cluster(input.references, order,
-                      {options.radius, options.leaf, options.block, std::min(options.run, options.leaf)});
+                      {options.radius, options.leaf, options.block, std::min(options.run, options.leaf), options.slack,
+                       std::min(options.group, options.width), options.width});
   tree.clipped_leaves = cut;
   return tree;
 }
+
+std::uint32_t ploc_arity(const PlocOptions& options) { return options.width; }
 
 }  // namespace
 
@@ -45,11 +51,16 @@ Stage ploc_stage() {
       .integer("block", &PlocOptions::block, 1, 16, "references a leaf tests at the price of one")
       .integer("run", &PlocOptions::run, 1, 16,
                "references next to each other on the curve that become a leaf before clustering, where that is cheaper")
+      .real("slack", &PlocOptions::slack, 0, 4, "how much dearer than apart the references of such a leaf may be")
+      .integer(
+          "group", &PlocOptions::group, 1, max_cluster_width,
+          "such leaves next to each other that become a node before clustering, where that is cheaper; at most 'width'")
+      .integer("width", &PlocOptions::width, 2, max_cluster_width,
+               "most children of a node; those of more than two are made as 'collapse' would, without the binary tree")
       .real("presplit", &PlocOptions::presplit, 0, 4,
             "references that cutting long triangles may add, as a part of all");
   return builder_stage<PlocOptions>("ploc", "joins neighbours along the Morton curve, bottom-up",
-                                    "Meister and Bittner 2018; Benthin et al. 2024", options, build_ploc,
-                                    [](const PlocOptions&) { return 2u; });
+                                    "Meister and Bittner 2018; Benthin et al. 2024", options, build_ploc, ploc_arity);
 }
 
 }  // namespace boxwood

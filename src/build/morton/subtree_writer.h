@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,31 +12,54 @@
 
 namespace boxwood {
 
-/// Writes joined clusters out as tree nodes, depth first with siblings side by side.
+/// Writes joined clusters out as tree nodes, depth first with siblings side by side. Nodes of more than two children
+/// are made by opening the largest child that fits as long as there is room: the tree's collapse, without the binary
+/// tree.
 class SubtreeWriter {
  public:
+  struct Child {
+    const Box* bounds;
+    ClusterId id;
+    std::uint32_t parts;  ///< that opening it gives; 0 when it cannot be opened
+    float area;           ///< half of it; of what cannot be opened -1
+  };
+  static Child leaf(const Box& bounds, ClusterId id) { return {&bounds, id, 0, -1}; }
+
+  /// What write() takes where no cluster is a group.
+  struct NoGroups {
+    std::uint32_t size(ClusterId) const { return 0; }
+    void open(ClusterId, Child*) const {}
+  };
+
+  /// `width`: most children of a node, 2…max_cluster_width.
+  explicit SubtreeWriter(std::uint32_t width) : width_(width) {}
+
   /// Sets out[begin + place], whose bounds are there already, and appends all that is below `id` to `out`; places are
-  /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set. An explicit stack:
+  /// counted from `begin`. finish(node, id) is called for what is not an inner node, its bounds set;
+  /// groups.size(id) and groups.open(id, children) tell what groups consist of. An explicit stack:
   /// trees may be deep.
-  template <class Finish>
-  void write(const ClusterNode* nodes, ClusterId id, std::size_t begin, std::size_t place, LargeVector<Tree::Node>& out,
-             Finish&& finish) {
-    visit(id, static_cast<std::uint32_t>(place), out.data() + begin, finish);
+  template <class Groups, class Finish>
+  void write(const ClusterNode* nodes, const Groups& groups, ClusterId id, std::size_t begin, std::size_t place,
+             LargeVector<Tree::Node>& out, Finish&& finish) {
+    if (!id.is_inner()) return finish(out[begin + place], id);
+    pending_.push_back({id.number(), static_cast<std::uint32_t>(place)});
     while (!pending_.empty()) {
       const auto [slot, node] = pending_.back();
       pending_.pop_back();
-      const ClusterNode& from = nodes[slot];
-      const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
+      gather_children(nodes, groups, slot);
       const auto first = static_cast<std::uint32_t>(out.size() - begin);
-      out.resize(out.size() + 2);
+      out.resize(out.size() + count_);
       Tree::Node* block = out.data() + begin;
       block[node].first = first;
-      block[node].count = 2;
-      block[node].axis = axis.axis & 3;
-      block[first].bounds = axis.descending ? from.right_bounds : from.left_bounds;
-      block[first + 1].bounds = axis.descending ? from.left_bounds : from.right_bounds;
-      visit(axis.descending ? from.left : from.right, first + 1, block, finish);
-      visit(axis.descending ? from.right : from.left, first, block, finish);
+      block[node].count = count_ & Tree::max_count;
+      block[node].axis = axis_ & 3;
+      for (std::uint32_t c = 0; c < count_; ++c) {
+        block[first + c].bounds = *children_[c].bounds;
+        if (!children_[c].id.is_inner()) finish(block[first + c], children_[c].id);
+      }
+      for (std::uint32_t c = count_; c-- > 0;) {
+        if (children_[c].id.is_inner()) pending_.push_back({children_[c].id.number(), first + c});
+      }
     }
   }
 
@@ -43,16 +67,48 @@ class SubtreeWriter {
   struct Pending {
     std::uint32_t slot, node;
   };
-
-  template <class Finish>
-  void visit(ClusterId id, std::uint32_t node, Tree::Node* block, Finish& finish) {
-    if (id.is_inner()) {
-      pending_.push_back({id.number(), node});
-    } else {
-      finish(block[node], id);
+  template <class Groups>
+  void gather_children(const ClusterNode* nodes, const Groups& groups, std::uint32_t slot) {
+    axis_ = put_pair(nodes[slot], groups, 0);
+    count_ = 2;
+    for (;;) {
+      std::uint32_t largest = count_;
+      float largest_area = -1;
+      for (std::uint32_t c = 0; c < count_; ++c) {
+        if (children_[c].area <= largest_area || count_ - 1 + children_[c].parts > width_) continue;
+        largest = c;
+        largest_area = children_[c].area;
+      }
+      if (largest == count_) return;
+      const Child opened = children_[largest];
+      std::copy_backward(children_ + largest + 1, children_ + count_, children_ + count_ - 1 + opened.parts);
+      count_ += opened.parts - 1;
+      axis_ = Tree::mixed_axis;  // Parts of parts need not ascend.
+      if (opened.id.is_group()) {
+        groups.open(opened.id, children_ + largest);
+      } else {
+        put_pair(nodes[opened.id.number()], groups, largest);
+      }
     }
   }
 
+  /// The two parts of a join, ascending along the axis that is returned.
+  template <class Groups>
+  std::uint32_t put_pair(const ClusterNode& from, const Groups& groups, std::uint32_t place) {
+    const auto child = [&](const Box& bounds, ClusterId id) {
+      if (id.is_leaf()) return leaf(bounds, id);
+      return Child{&bounds, id, id.is_group() ? groups.size(id) : 2, half_area(bounds)};
+    };
+    const ChildAxis axis = child_axis(from.left_bounds, from.right_bounds);
+    const Child left = child(from.left_bounds, from.left), right = child(from.right_bounds, from.right);
+    children_[place] = axis.descending ? right : left;
+    children_[place + 1] = axis.descending ? left : right;
+    return axis.axis;
+  }
+
+  std::uint32_t width_;
+  Child children_[max_cluster_width];
+  std::uint32_t count_ = 0, axis_ = 0;  ///< of the node that is being written
   std::vector<Pending> pending_;
 };
 

@@ -90,21 +90,20 @@ class LeafWriter {
     for (std::size_t lane = 0; lane < L; ++lane) {
       block.primitives[lane] = references_[first + (lane < count ? lane : 0)];
       triangles[lane] = &mesh_.triangles[block.primitives[lane]];
-      if (lane < count) prefetch(first + lane);
+      prefetch(first + lane);
     }
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
       for (std::size_t lane = 0; lane < L; lane += 4) {
-        Lanes rows[4];
-        for (std::size_t i = 0; i < 4; ++i) {
-          // What is missing is a single point.
-          rows[i] = position((*triangles[lane + i])[lane + i < count ? vertex : 0]);
-        }
+        // What is missing is a single point.
+        const auto row = [&](std::size_t i) { return position((*triangles[i])[i < count ? vertex : 0]); };
+        const Lanes rows[4] = {row(lane), row(lane + 1), row(lane + 2), row(lane + 3)};
         store_transposed(rows, vertices + 3 * vertex * L + lane, L);
       }
     }
   }
 
-  void prefetch(std::size_t reference) const {
+  /// Inlined, since GCC drops calls of functions that only prefetch.
+  [[gnu::always_inline]] void prefetch(std::size_t reference) const {
     if (reference + triangles_ahead >= references_.size()) return;
     __builtin_prefetch(&mesh_.triangles[references_[reference + triangles_ahead]]);
     for (const std::uint32_t vertex : mesh_.triangles[references_[reference + positions_ahead]]) {
@@ -114,8 +113,11 @@ class LeafWriter {
 
   Lanes position(std::uint32_t vertex) const {
     Lanes out{};
-    // Nothing follows the last one.
-    std::memcpy(&out, &mesh_.positions[vertex], vertex + 1 < mesh_.positions.size() ? sizeof(Lanes) : sizeof(Vec3));
+    if (vertex + 1 < mesh_.positions.size()) [[likely]] {
+      std::memcpy(&out, &mesh_.positions[vertex], sizeof(Lanes));
+    } else {  // Nothing follows the last one.
+      std::memcpy(&out, &mesh_.positions[vertex], sizeof(Vec3));
+    }
     return out;
   }
 
