@@ -1,5 +1,5 @@
-// Unpacks nodes of quantized boxes, and leaves that name triangles of the caller's mesh, for the kernels of ../simd.
-// Compiled once per instruction set.
+// Unpacks nodes of quantized boxes, and leaves, packed ones and those that name triangles of the caller's mesh, for the
+// kernels of ../simd. Compiled once per instruction set.
 #if defined(BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H
 #undef BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H
@@ -10,6 +10,7 @@
 #include <bit>
 #include <limits>
 
+#include "layout/compressed/packed_leaf-inl.h"
 #include "layout/compressed/quantized_node.h"
 #include "layout/simd/lanes-inl.h"
 #include "layout/simd/triangles-inl.h"
@@ -37,7 +38,7 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode
   const auto place = hn::PromoteTo(du, hn::LoadU(bytes, node.place + begin));
   const auto bit = hn::BitCast(du, hn::Shl(hn::Set(di, 1), hn::Iota(di, begin)));
   const auto inner = hn::TestBit(hn::Set(du, node.inner), bit);
-  const auto first = hn::IfThenElse(inner, hn::Set(du, node.first_node * 2), hn::Set(du, node.first_primitive * 2 + 1));
+  const auto first = hn::IfThenElse(inner, hn::Set(du, node.first_node * 2), hn::Set(du, node.first_leaf * 2 + 1));
   const auto reference = hn::Add(first, hn::Add(place, place));
   return hn::IfThenZeroElse(hn::Eq(place, hn::Set(du, no_child)), reference);
 }
@@ -145,7 +146,12 @@ struct QuantizedStore {
 
   static HWY_INLINE const LeafBlock<8>& block(const WideView& view, WideReference reference, std::size_t number,
                                               BlockBuffer& out) {
-    const int count = load_names(view.primitives + (reference >> 1) + number * 8, out.primitives);
+    const std::uint32_t* words = view.leaf_words + (reference >> 1) + number * 8;
+    if (HWY_LIKELY((words[0] & packed_leaf) != 0)) {
+      unpack_leaf(words, out);
+      return out;
+    }
+    const int count = load_names(words, out.primitives);
     gather_vertices(view, count, out);
     out.primitives[0] |= count > 8 ? more_blocks : 0;
     return out;
@@ -153,8 +159,8 @@ struct QuantizedStore {
 
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
     const std::byte* node = view.base + std::size_t{reference >> 1} * sizeof(Node);
-    const auto* names = reinterpret_cast<const std::byte*>(view.primitives + (reference >> 1));
-    const std::byte* place = is_leaf(reference) ? names : node;
+    const auto* leaf = reinterpret_cast<const std::byte*>(view.leaf_words + (reference >> 1));
+    const std::byte* place = is_leaf(reference) ? leaf : node;
     for (std::size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(place + line);
   }
   static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) { prefetch(view, reference); }

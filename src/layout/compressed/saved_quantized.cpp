@@ -1,4 +1,5 @@
-// Compressed trees in files. Their leaves only name triangles, so the mesh goes with them: names, positions, triangles.
+// Compressed trees in files. Some of their leaves only name triangles, so the mesh goes with them: leaves, positions,
+// triangles.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -13,22 +14,22 @@
 namespace boxwood {
 namespace {
 
-struct NamesAndMesh {
-  std::span<const std::uint32_t> names;
+struct LeavesAndMesh {
+  std::span<const std::uint32_t> words;
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
 };
 
 /// Throws Error when the leaves are not as long as the facts say.
-NamesAndMesh split_leaves(const SavedLevel& level) {
+LeavesAndMesh split_leaves(const SavedLevel& level) {
   const std::size_t size = level.leaves.size();
   const std::uint64_t vertices = level.facts.vertices, triangles = level.facts.primitives;
   const bool fits = vertices <= size / sizeof(Vec3) && triangles <= size / sizeof(Triangle) &&
                     vertices * sizeof(Vec3) + triangles * sizeof(Triangle) <= size;
   const std::size_t begin_of_mesh = fits ? size - vertices * sizeof(Vec3) - triangles * sizeof(Triangle) : 0;
-  if (begin_of_mesh < (1 + names_at_once) * sizeof(std::uint32_t)) throw Error("its mesh ends within a triangle");
+  if (begin_of_mesh < (1 + words_at_once) * sizeof(std::uint32_t)) throw Error("its mesh ends within a triangle");
   const auto mesh = level.leaves.subspan(begin_of_mesh);
-  return {elements_of<std::uint32_t>(level.leaves.first(begin_of_mesh), "names of triangles"),
+  return {elements_of<std::uint32_t>(level.leaves.first(begin_of_mesh), "words of leaves"),
           elements_of<Vec3>(mesh.first(vertices * sizeof(Vec3)), "vertices"),
           elements_of<Triangle>(mesh.subspan(vertices * sizeof(Vec3)), "triangles")};
 }
@@ -39,12 +40,12 @@ struct KeptQuantized {
   WideView view;
   WideShape shape;
 
-  std::size_t bytes() const { return level.nodes.size() + split_leaves(level).names.size_bytes(); }
+  std::size_t bytes() const { return level.nodes.size() + split_leaves(level).words.size_bytes(); }
   std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
   void save(SavedLevel& out) const { out = level; }
 };
 
-/// What lies where; each node and each name may belong to one thing only.
+/// What lies where; each node and each word of a leaf may belong to one thing only.
 template <class Node, int N>
 class QuantizedCheck {
  public:
@@ -59,7 +60,7 @@ class QuantizedCheck {
       }
     }
     node_taken_.resize(nodes_.size());
-    name_taken_.resize(leaves_.names.size());
+    word_taken_.resize(leaves_.words.size());
     const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root, facts_.stack, *this);
     if (!bad) return {};
     return fmt::format("{} {} is none that any walk could use", is_leaf(*bad) ? "leaf" : "node", *bad >> 1);
@@ -73,16 +74,9 @@ class QuantizedCheck {
   }
 
   bool take_leaf(WideReference reference) {
-    std::size_t place = reference >> 1;
-    if (place == 0) return false;
-    for (bool more = true; more; ++place) {
-      if (place + names_at_once >= leaves_.names.size() || name_taken_[place]) return false;
-      name_taken_[place] = true;
-      const std::uint32_t name = leaves_.names[place];
-      if ((name & ~last_of_leaf) >= leaves_.triangles.size()) return false;
-      more = (name & last_of_leaf) == 0;
-    }
-    return true;
+    const std::size_t place = reference >> 1;
+    if (place == 0 || place >= leaves_.words.size()) return false;
+    return (leaves_.words[place] & packed_leaf) != 0 ? take_packed(place) : take_names(place);
   }
 
   /// As the kernels find it, in the same arithmetic; 0 where there is none.
@@ -106,16 +100,50 @@ class QuantizedCheck {
   static bool is_unused(const Node& node, int lane) { return child(node, lane) == wide_nothing; }
 
  private:
+  /// Takes `size` words, behind which there are enough for kernels to read.
+  bool take_words(std::size_t place, std::size_t size) {
+    if (place + size + words_at_once > leaves_.words.size()) return false;
+    for (std::size_t i = place; i < place + size; ++i) {
+      if (word_taken_[i]) return false;
+      word_taken_[i] = true;
+    }
+    return true;
+  }
+
+  bool take_names(std::size_t place) {
+    for (bool more = true; more; ++place) {
+      if (!take_words(place, 1)) return false;
+      const std::uint32_t name = leaves_.words[place];
+      if ((name & ~last_of_leaf) >= leaves_.triangles.size()) return false;
+      more = (name & last_of_leaf) == 0;
+    }
+    return true;
+  }
+
+  bool take_packed(std::size_t place) {
+    const std::uint32_t* words = &leaves_.words[place];
+    const PackedLeafHead head(words[0]);
+    if (words[0] >> 27 != packed_leaf >> 27 || !take_words(place, head.words())) return false;
+    PackedBits indices(words, PackedLeafHead::begin_of_indices), numbers(words, head.begin_of_numbers());
+    for (std::uint32_t i = 0; i < 3 * head.triangles; ++i) {
+      if (indices.take(4) >= head.corners) return false;
+    }
+    for (std::uint32_t i = 0; i < head.triangles; ++i) {
+      if (std::uint64_t{words[1]} + numbers.take(head.bits[3]) >= leaves_.triangles.size()) return false;
+    }
+    return true;
+  }
+
   static WideReference child_of_eight(const QuantizedNode8& node, int lane) {
     if (node.place[lane] == no_child) return wide_nothing;
     const bool inner = (node.inner >> lane & 1) != 0;
-    return (inner ? node.first_node * 2 : node.first_primitive * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
+    return (inner ? node.first_node * 2 : node.first_leaf * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
   }
 
   const SavedFacts& facts_;
   std::span<const Node> nodes_;
-  NamesAndMesh leaves_;
-  std::vector<bool> node_taken_, name_taken_;
+  LeavesAndMesh leaves_;
+  std::vector<bool> node_taken_, word_taken_;
 };
 
 /// Calls use.template operator()<Node, N>() for the nodes that the level has.
@@ -137,8 +165,8 @@ std::shared_ptr<const Layout> restore_quantized(const SavedLevel& level, const T
   const SavedFacts& facts = level.facts;
   if (trace != TraceOptions{}) throw Error("it is to be walked in a way that its nodes are not made for");
   if (facts.stack > wide_stack_limit) throw Error("it is deeper than any walk can go");
-  const NamesAndMesh leaves = split_leaves(level);
-  WideView view = quantized_view(level.nodes.data(), leaves.names.data(), leaves.positions, leaves.triangles);
+  const LeavesAndMesh leaves = split_leaves(level);
+  WideView view = quantized_view(level.nodes.data(), leaves.words.data(), leaves.positions, leaves.triangles);
   view.reach = facts.reach;
   view.stack = facts.stack;
   view.out_of_cache = facts.out_of_cache != 0;
@@ -166,12 +194,13 @@ void QuantizedArena::save(SavedLevel& out) const {
   out.facts.inner_children = shape.children;
   out.facts.triangles = shape.triangles;
   out.nodes = {nodes.data(), nodes.bytes()};
-  const auto leaves = std::make_shared<std::vector<std::byte>>();
-  for (const auto part : {std::as_bytes(std::span(primitives)), std::as_bytes(positions), std::as_bytes(triangles)}) {
-    leaves->insert(leaves->end(), part.begin(), part.end());
+  const auto with_mesh = std::make_shared<std::vector<std::byte>>();
+  const std::span words(leaves.data(), leaves.bytes());
+  for (const auto part : {words, std::as_bytes(positions), std::as_bytes(triangles)}) {
+    with_mesh->insert(with_mesh->end(), part.begin(), part.end());
   }
-  out.leaves = *leaves;
-  out.owner = leaves;
+  out.leaves = *with_mesh;
+  out.owner = with_mesh;
 }
 
 SavedKindEntry saved_quantized() {
