@@ -19,7 +19,7 @@ template <class Node, int N>
 class OpenNode<QuantizedStore<Node, N>> {
  public:
   HWY_INLINE OpenNode(const WideView& view, WideReference reference)
-      : node_(reinterpret_cast<const Node*>(view.base)[reference >> 1]) {}
+      : node_(*reinterpret_cast<const Node*>(place_of(view, reference))) {}
 
   /// A plane's distance is (origin + q * step) / direction - offset, taken as q * (step / direction) plus what all
   /// children share. The first product is exact; what the sum rounds once more, and the plane once less, is at most two

@@ -94,7 +94,7 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const PackedLeafHead&
 
 #endif
 
-/// A whole packed leaf.
+/// A packed leaf, or a part of one.
 HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
   using D = hn::CappedTag<std::uint32_t, 8>;
   const D d;
@@ -105,6 +105,7 @@ HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
     const auto differences = unpack_bits(d, words, begin + i * head.bits[3], head.bits[3]);
     hn::Store(hn::Add(differences, hn::Set(d, words[1])), d, out.primitives + i);
   }
+  out.primitives[0] |= (words[0] & packed_more) * (more_blocks / packed_more);
 }
 
 }  // namespace HWY_NAMESPACE

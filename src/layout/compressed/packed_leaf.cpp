@@ -8,7 +8,6 @@ namespace {
 
 /// Of a base, the bits that are kept.
 constexpr std::uint32_t kept_of_base = 0xffff0000;
-constexpr std::uint32_t most_bits = 31;
 
 /// Appends numbers to a stream of bits. The words are zero before.
 class BitWriter {
@@ -43,59 +42,58 @@ std::uint32_t PackedBits::take(std::uint32_t bits) {
   return value;
 }
 
-std::optional<OwnCorners> OwnCorners::of(std::span<const std::uint32_t> names, const Mesh& mesh) {
-  if (names.size() > most_packed_triangles) return {};
-  OwnCorners leaf;
-  leaf.triangles_ = static_cast<std::uint32_t>(names.size());
-  std::ranges::copy(names, leaf.names_.begin());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-      if (!leaf.add_corner(mesh.positions[mesh.triangles[names[i]][vertex]], leaf.index_[vertex][i])) return {};
-    }
+OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh) {
+  for (const std::uint32_t name : names.first(std::min<std::size_t>(names.size(), most_packed_triangles))) {
+    if (!add(name, mesh)) break;
   }
-  if (!leaf.measure()) return {};
-  return leaf;
+  measure();
 }
 
-bool OwnCorners::add_corner(const Vec3& position, std::uint8_t& index) {
-  const auto bits = bits_of_position(position);
-  std::uint32_t i = 0;
-  while (i < corners_ && (corner_[0][i] != bits[0] || corner_[1][i] != bits[1] || corner_[2][i] != bits[2])) ++i;
-  if (i == most_packed_corners) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) corner_[axis][i] = bits[axis];
-  corners_ = std::max(corners_, i + 1);
-  index = static_cast<std::uint8_t>(i);
+bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
+  std::uint32_t size = corners_;
+  for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+    const auto bits = bits_of_position(mesh.positions[mesh.triangles[name][vertex]]);
+    std::uint32_t i = 0;
+    while (i < size && (corner_[0][i] != bits[0] || corner_[1][i] != bits[1] || corner_[2][i] != bits[2])) ++i;
+    if (i == most_packed_corners) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis) corner_[axis][i] = bits[axis];
+    size = std::max(size, i + 1);
+    index_[vertex][triangles_] = static_cast<std::uint8_t>(i);
+  }
+  corners_ = size;
+  names_[triangles_++] = name;
   return true;
 }
 
-bool OwnCorners::measure() {
-  head_ = packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, most] = std::minmax_element(corner_[axis].begin(), corner_[axis].begin() + corners_);
-    base_[axis] = *least & kept_of_base;
-    const auto bits = static_cast<std::uint32_t>(std::bit_width(*most - base_[axis]));
-    if (bits > most_bits) return false;
-    head_ |= bits << (7 + 5 * axis);
-  }
-  const auto [least, most] = std::minmax_element(names_.begin(), names_.begin() + triangles_);
-  least_name_ = *least;
-  head_ |= static_cast<std::uint32_t>(std::bit_width(*most - *least)) << 22;
-  return true;
+void OwnCorners::measure() {
+  const auto set = [&](std::size_t stream, std::span<const std::uint32_t> values, std::uint32_t kept) {
+    const auto [least, most] = std::ranges::minmax(values);
+    base_[stream] = least & kept;
+    width_[stream] = static_cast<std::uint32_t>(std::bit_width(most - base_[stream]));
+    if (width_[stream] == 31) width_[stream] = 32;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) set(axis, std::span(corner_[axis]).first(corners_), kept_of_base);
+  set(3, std::span(names_).first(triangles_), ~0u);
 }
 
-void OwnCorners::pack(std::uint32_t* out) const {
-  const PackedLeafHead head(head_);
+std::uint32_t OwnCorners::head() const {
+  std::uint32_t word = packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3;
+  for (std::size_t stream = 0; stream < 4; ++stream) word |= std::min(width_[stream], 31u) << (7 + 5 * stream);
+  return word;
+}
+
+void OwnCorners::pack(std::uint32_t* out, bool more) const {
   BitWriter bits(out);
-  bits.put(head_, 32);
-  bits.put(least_name_, 32);
-  for (const std::uint32_t base : base_) bits.put(base >> 16, 16);
+  bits.put(head() | (more ? packed_more : 0), 32);
+  bits.put(base_[3], 32);
+  for (std::size_t axis = 0; axis < 3; ++axis) bits.put(base_[axis] >> 16, 16);
   for (const auto& of_vertex : index_) {
     for (std::size_t i = 0; i < triangles_; ++i) bits.put(of_vertex[i], 4);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], head.bits[axis]);
+    for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], width_[axis]);
   }
-  for (std::size_t i = 0; i < triangles_; ++i) bits.put(names_[i] - least_name_, head.bits[3]);
+  for (std::size_t i = 0; i < triangles_; ++i) bits.put(names_[i] - base_[3], width_[3]);
 }
 
 }  // namespace boxwood

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "boxwood/error.h"
 #include "layout/compressed/quantize.h"
@@ -17,51 +18,84 @@ namespace {
 
 constexpr std::size_t small_tree_bytes = std::size_t{4} << 20;
 
-std::span<const std::uint32_t> names_of(const Tree& tree, const Tree::Node& leaf) {
-  return std::span(tree.references).subspan(leaf.first, leaf.count);
+/// Calls visit(index, names of its triangles) for each leaf, in parallel.
+template <class Visit>
+void for_each_leaf(const Tree& tree, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.nodes.size(), 1 << 8), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Tree::Node& node = tree.nodes[i];
+      if (node.is_leaf()) visit(i, std::span(tree.references).subspan(node.first, node.count));
+    }
+  });
 }
+
+/// Leaves of more triangles name them: a walk passes over one packed part after the other.
+constexpr std::size_t most_triangles_in_parts = 16;
 
 /// Which leaves hold their own corners.
 class LeafSizes {
  public:
   LeafSizes(const Tree& tree, const Mesh& mesh) : tree_(tree), packed_(tree.nodes.size()) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.nodes.size(), 1 << 8), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        if (!tree.nodes[i].is_leaf()) continue;
-        const std::optional<OwnCorners> corners = OwnCorners::of(names_of(tree, tree.nodes[i]), mesh);
-        packed_[i] = static_cast<std::uint8_t>(corners ? corners->words() : 0);
-      }
+    for_each_leaf(tree, [&](std::size_t i, std::span<const std::uint32_t> names) {
+      if (names.size() > most_triangles_in_parts) return;
+      for_each_packed(names, mesh, [&](const OwnCorners& part, bool) {
+        packed_[i] = static_cast<std::uint8_t>(packed_[i] + part.words());
+      });
     });
   }
 
   /// Words of a leaf; a name takes one.
   std::size_t words(std::size_t leaf) const { return packed_[leaf] != 0 ? packed_[leaf] : tree_.nodes[leaf].count; }
   bool is_packed(std::size_t leaf) const { return packed_[leaf] != 0; }
-  void unpack(std::size_t leaf) { packed_[leaf] = 0; }
-
-  /// Words that packing takes beyond names.
-  std::size_t growth(std::size_t leaf) const {
-    return words(leaf) - std::min<std::size_t>(words(leaf), tree_.nodes[leaf].count);
+  std::size_t total() const {
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < packed_.size(); ++i) total += tree_.nodes[i].is_leaf() ? words(i) : 0;
+    return total;
   }
 
-  /// Has leaves that grow by more than what the rest leave room for name their triangles.
-  void fit(std::size_t most_words) {
+  /// Has leaves name their triangles, those first that grow most by packing, until all take no more than `most` words.
+  void fit(std::size_t most) {
     std::array<std::size_t, 256> grown{};
-    std::size_t total = tree_.references.size();
     for (std::size_t i = 0; i < packed_.size(); ++i) grown[growth(i)] += growth(i);
-    std::size_t most_growth = 0;
-    while (most_growth < grown.size() && total + grown[most_growth] <= most_words) total += grown[most_growth++];
+    std::size_t total = tree_.references.size(), most_growth = 0;
+    while (most_growth < grown.size() && total + grown[most_growth] <= most) total += grown[most_growth++];
     for (std::size_t i = 0; i < packed_.size(); ++i) {
-      if (growth(i) >= most_growth) unpack(i);
+      if (growth(i) >= most_growth) packed_[i] = 0;
+    }
+  }
+
+  /// Likewise among the children of each node, until no more than `most` words lie before the last leaf.
+  void fit_nodes(std::size_t most) {
+    for (const Tree::Node& node : tree_.nodes) {
+      while (!node.is_leaf() && words_before_last(node) > most) {
+        const auto end = node.first + node.count;
+        auto largest = std::size_t{node.first};
+        for (std::size_t i = node.first; i < end; ++i) largest = growth(i) > growth(largest) ? i : largest;
+        if (growth(largest) == 0) break;
+        packed_[largest] = 0;
+      }
     }
   }
 
  private:
+  /// Words that packing takes beyond names.
+  std::size_t growth(std::size_t i) const { return packed_[i] != 0 ? packed_[i] - tree_.nodes[i].count : 0u; }
+
+  std::size_t words_before_last(const Tree::Node& node) const {
+    std::size_t before = 0, all = 0;
+    for (std::size_t i = node.first; i < node.first + node.count; ++i) {
+      if (!tree_.nodes[i].is_leaf()) continue;
+      before = all;
+      all += words(i);
+    }
+    return before;
+  }
+
   const Tree& tree_;
   std::vector<std::uint8_t> packed_;  // words of leaves with corners of their own; 0 for others
 };
 
-/// Numbers inner nodes so that siblings are adjacent, and places leaves so that sibling leaves are.
+/// Places inner nodes so that siblings are adjacent, and leaves, behind all nodes, so that sibling leaves are.
 template <class Node>
 class Encoder {
  public:
@@ -69,25 +103,36 @@ class Encoder {
       : tree_(tree), mesh_(mesh), out_(out), sizes_(tree, mesh), places_(tree.nodes.size()) {
     const auto inner = static_cast<std::size_t>(
         std::ranges::count_if(tree.nodes, [](const Tree::Node& node) { return !node.is_leaf(); }));
-    out_.nodes = Arena((inner + 2) * sizeof(Node));  // none at 0, and a root even of one leaf or nothing
-    nodes_ = reinterpret_cast<Node*>(out_.nodes.data());
+    node_bytes_ = (inner + 2) * sizeof(Node);  // none at 0, and a root even of one leaf or nothing
+    const std::size_t bytes = bytes_per_triangle * std::min(mesh.triangles.size(), tree.references.size());
+    sizes_.fit((bytes - std::min(bytes, node_bytes_)) / sizeof(std::uint32_t));
+    if (sizeof(Node) == sizeof(QuantizedNode8)) sizes_.fit_nodes(no_child - 1);
+    out_.memory = Arena(node_bytes_ + (sizes_.total() + words_at_once) * sizeof(std::uint32_t));
+    words_ = reinterpret_cast<std::uint32_t*>(out_.memory.data());
+    next_leaf_ = static_cast<std::uint32_t>(node_bytes_ / sizeof(std::uint32_t));
   }
 
   void run() {
-    const std::size_t bytes = bytes_per_triangle * std::min(mesh_.triangles.size(), tree_.references.size());
-    sizes_.fit((bytes - std::min(bytes, out_.nodes.bytes())) / sizeof(std::uint32_t));
+    Node& root = node_at(take_node());
     if (tree_.empty()) {
-      write(nodes_[1], {}, {});
+      write(root, {}, {});
     } else if (tree_.nodes[0].is_leaf()) {
-      write(nodes_[1], tree_.nodes[0].bounds, {&tree_.nodes[0], 1});
+      write(root, tree_.nodes[0].bounds, {&tree_.nodes[0], 1});
     } else {
-      places_[0] = next_number_++;
+      places_[0] = words_per_node;
       write_inner_nodes();
     }
     write_leaves();
   }
 
+  std::size_t node_bytes() const { return node_bytes_; }
+
  private:
+  static constexpr std::uint32_t words_per_node = sizeof(Node) / sizeof(std::uint32_t);
+
+  Node& node_at(std::uint32_t word) { return *reinterpret_cast<Node*>(words_ + word); }
+  std::uint32_t take_node() { return std::exchange(next_node_, next_node_ + words_per_node); }
+
   void write_inner_nodes() {
     std::vector<std::uint32_t> pending = {0};
     while (!pending.empty()) {
@@ -97,39 +142,33 @@ class Encoder {
       const auto children = std::span(tree_.nodes).subspan(node.first, node.count);
       Box box;
       for (const Tree::Node& child : children) box.grow(child.bounds);
-      write(nodes_[places_[i]], box, children);
+      write(node_at(places_[i]), box, children);
       for (std::uint32_t c = node.count; c-- > 0;) {
         if (!children[c].is_leaf()) pending.push_back(node.first + c);
       }
     }
   }
 
-  std::uint32_t number(const Tree::Node& child) {
+  /// Takes room for a child.
+  std::uint32_t place(const Tree::Node& child) {
     const auto index = static_cast<std::size_t>(&child - tree_.nodes.data());
-    return places_[index] = next_number_++;
-  }
-
-  std::uint32_t place_leaf(const Tree::Node& leaf) {
-    const auto index = static_cast<std::size_t>(&leaf - tree_.nodes.data());
-    places_[index] = next_word_;
-    next_word_ += static_cast<std::uint32_t>(sizes_.words(index));
+    if (!child.is_leaf()) return places_[index] = take_node();
+    places_[index] = next_leaf_;
+    next_leaf_ += static_cast<std::uint32_t>(sizes_.words(index));
     return places_[index];
   }
 
   void write_leaves() {
-    out_.leaves = Arena((next_word_ + words_at_once) * sizeof(std::uint32_t));
-    auto* words = reinterpret_cast<std::uint32_t*>(out_.leaves.data());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes.size(), 1 << 8), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        if (!tree_.nodes[i].is_leaf()) continue;
-        const auto names = names_of(tree_, tree_.nodes[i]);
-        std::uint32_t* const out = words + places_[i];
-        if (sizes_.is_packed(i)) {
-          OwnCorners::of(names, mesh_)->pack(out);
-        } else {
-          std::ranges::copy(names, out);
-          out[names.size() - 1] |= last_of_leaf;
-        }
+    for_each_leaf(tree_, [&](std::size_t i, std::span<const std::uint32_t> names) {
+      std::uint32_t* out = words_ + places_[i];
+      if (sizes_.is_packed(i)) {
+        for_each_packed(names, mesh_, [&](const OwnCorners& part, bool more) {
+          part.pack(out, more);
+          out += part.words();
+        });
+      } else {
+        std::ranges::copy(names, out);
+        out[names.size() - 1] |= last_of_leaf;
       }
     });
   }
@@ -151,43 +190,25 @@ class Encoder {
   void write(QuantizedNode16& node, const Box& box, std::span<const Tree::Node> children) {
     write_boxes(node, box, children);
     for (std::size_t c = 0; c < children.size(); ++c) {
-      node.children[c] = children[c].is_leaf() ? place_leaf(children[c]) * 2 + 1 : number(children[c]) * 2;
-    }
-  }
-
-  /// Has leaves name their triangles, the largest first, until the last one is near enough to the first.
-  void make_room(std::span<const Tree::Node> children) {
-    const auto first = static_cast<std::size_t>(children.data() - tree_.nodes.data());
-    while (true) {
-      std::size_t before = 0, words = 0, largest = first;
-      for (std::size_t i = first; i < first + children.size(); ++i) {
-        if (!tree_.nodes[i].is_leaf()) continue;
-        before = words;
-        words += sizes_.words(i);
-        if (sizes_.growth(i) > sizes_.growth(largest)) largest = i;
-      }
-      if (before < no_child || sizes_.growth(largest) == 0) return;
-      sizes_.unpack(largest);
+      node.children[c] = place(children[c]) * 2 + (children[c].is_leaf() ? 1 : 0);
     }
   }
 
   void write(QuantizedNode8& node, const Box& box, std::span<const Tree::Node> children) {
     write_boxes(node, box, children);
     std::ranges::fill(node.place, static_cast<std::uint8_t>(no_child));
-    node.first_node = next_number_;
-    node.first_leaf = next_word_;
-    make_room(children);
+    node.first_node = next_node_;
+    node.first_leaf = next_leaf_;
     for (std::size_t c = 0; c < children.size(); ++c) {
       const bool leaf = children[c].is_leaf();
-      const std::uint32_t place =
-          leaf ? place_leaf(children[c]) - node.first_leaf : number(children[c]) - node.first_node;
-      if (place >= no_child) {
+      const std::uint32_t distance = place(children[c]) - (leaf ? node.first_leaf : node.first_node);
+      if (distance >= no_child) {
         throw UsageError(fmt::format(
             "'compressed(8)' has room for {} triangles before the last leaf of a node, not {}; make smaller "
             "leaves or use compressed(16)",
-            no_child - 1, place));
+            no_child - 1, distance));
       }
-      node.place[c] = static_cast<std::uint8_t>(place);
+      node.place[c] = static_cast<std::uint8_t>(distance);
       if (!leaf) node.inner = static_cast<std::uint8_t>(node.inner | 1u << c);
     }
   }
@@ -196,9 +217,10 @@ class Encoder {
   const Mesh& mesh_;
   QuantizedArena& out_;
   LeafSizes sizes_;
-  Node* nodes_;
-  std::vector<std::uint32_t> places_;  // numbers of nodes, first words of leaves
-  std::uint32_t next_number_ = 1, next_word_ = 1;
+  std::size_t node_bytes_ = 0;
+  std::uint32_t* words_ = nullptr;
+  std::vector<std::uint32_t> places_;  // first words of nodes and leaves
+  std::uint32_t next_node_ = words_per_node, next_leaf_ = 0;
 };
 
 float reach_of_box(const Box& box) {
@@ -212,17 +234,16 @@ float reach_of_box(const Box& box) {
 }  // namespace
 
 bool has_quantized_names(const Tree& tree, const Mesh& mesh) {
-  constexpr std::size_t most_words = (std::size_t{1} << 31) - 2 * words_at_once;
-  return tree.references.size() < most_words / (bytes_per_triangle / sizeof(std::uint32_t)) &&
-         tree.nodes.size() < most_words && mesh.triangles.size() <= packed_leaf;
+  constexpr std::size_t most_words = std::size_t{1} << 31, words_per_node = sizeof(QuantizedNode16) / 4;
+  return (tree.nodes.size() + 2) * words_per_node + tree.references.size() * (bytes_per_triangle / 4) < most_words &&
+         mesh.triangles.size() <= packed_leaf;
 }
 
-WideView quantized_view(const std::byte* nodes, const std::uint32_t* leaf_words, std::span<const Vec3> positions,
+WideView quantized_view(const std::byte* memory, std::size_t node_bytes, std::span<const Vec3> positions,
                         std::span<const Triangle> triangles) {
   WideView view;
-  view.base = nodes;
-  view.root = quantized_root;
-  view.leaf_words = leaf_words;
+  view.base = memory;
+  view.root = quantized_root(node_bytes);
   view.positions = positions.data();
   view.triangles = triangles.data();
   return view;
@@ -244,17 +265,17 @@ bool fits_eight(const Tree& tree) {
 template <class Node>
 QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   QuantizedArena out;
-  Encoder<Node>(tree, mesh, out).run();
+  Encoder<Node> encoder(tree, mesh, out);
+  encoder.run();
   out.shape.lanes = sizeof(Node::planes[0]);
   if (!tree.empty()) {
-    out.shape = {out.nodes.bytes() / sizeof(Node) - (tree.nodes[0].is_leaf() ? 1 : 2), out.nodes.bytes(),
+    out.shape = {encoder.node_bytes() / sizeof(Node) - (tree.nodes[0].is_leaf() ? 1 : 2), encoder.node_bytes(),
                  sizeof(Node::planes[0]), std::max<std::size_t>(tree.nodes.size() - 1, 1), tree.references.size()};
   }
   out.positions = mesh.positions;
   out.triangles = mesh.triangles;
   out.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
-  out.view = quantized_view(out.nodes.data(), reinterpret_cast<const std::uint32_t*>(out.leaves.data()), out.positions,
-                            out.triangles);
+  out.view = quantized_view(out.memory.data(), sizeof(Node), out.positions, out.triangles);
   out.view.reach = tree.empty() ? 0 : reach_of_box(out.bounds);
   out.view.stack = needs_of(tree).stack;
   out.view.out_of_cache = out.bytes() + mesh.positions.size() * sizeof(Vec3) > small_tree_bytes;

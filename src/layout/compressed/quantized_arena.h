@@ -17,14 +17,14 @@ struct SavedLevel;
 /// A compressed tree: its nodes, and its leaves in words, packed or as names of triangles. Named triangles stay where
 /// the mesh has them: it must outlive this.
 struct QuantizedArena {
-  Arena nodes, leaves;
+  Arena memory;
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
   Box bounds;
   WideView view;
   WideShape shape;
 
-  std::size_t bytes() const { return nodes.bytes() + leaves.bytes(); }
+  std::size_t bytes() const { return memory.bytes(); }
   std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
   /// Files hold the mesh as well, so that what is loaded needs no caller's. Copies it; O(n).
   void save(SavedLevel& out) const;
@@ -37,9 +37,11 @@ inline constexpr std::size_t bytes_per_triangle = 20;
 bool has_quantized_names(const Tree& tree, const Mesh& mesh);
 
 /// The root is the first node but one.
-inline constexpr WideReference quantized_root = 2;
+constexpr WideReference quantized_root(std::size_t node_bytes) {
+  return static_cast<WideReference>(node_bytes / sizeof(std::uint32_t) * 2);
+}
 
-WideView quantized_view(const std::byte* nodes, const std::uint32_t* leaf_words, std::span<const Vec3> positions,
+WideView quantized_view(const std::byte* memory, std::size_t node_bytes, std::span<const Vec3> positions,
                         std::span<const Triangle> triangles);
 
 /// Whether QuantizedNode8 can number what lies before the last leaf of every node. O(nodes).

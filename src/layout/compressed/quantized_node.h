@@ -7,16 +7,16 @@
 
 namespace boxwood {
 
-/// References in a compressed tree: the number of a node times two, or the place of a leaf's first word times two
-/// plus one. Number and place 0 are never used. A leaf is packed (packed_leaf.h) or the names of its triangles.
+/// References in a compressed tree: the place of a node's or a leaf's first 32-bit word times two, plus one for a leaf.
+/// Place 0 is never used. A leaf is packed (packed_leaf.h) or the names of its triangles.
 
 /// A plane of a child lies at origin + q * scale: exactly the float that fused multiply-add gives, so the encoder knows
 /// it, too. Rows as in WideNode. Eight children, 80 bytes:
 ///    0  planes, 8 bytes a row
 ///   48  origin, then one exponent of two per axis
 ///   63  which children are nodes, one bit each
-///   64  number of the first child node; place of the first leaf's first word
-///   72  per child: which of the nodes it is, or the distance of its first word; 255: no child
+///   64  places of the first child that is a node and of the first that is a leaf
+///   72  per child: distance in words from that; 255: no child
 struct alignas(16) QuantizedNode8 {
   std::uint8_t planes[6][8];
   float origin[3];

@@ -24,6 +24,10 @@ HWY_INLINE float power_of_two(std::int8_t exponent) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
 }
 
+HWY_INLINE const std::byte* place_of(const WideView& view, WideReference reference) {
+  return view.base + std::size_t{reference >> 1} * sizeof(std::uint32_t);
+}
+
 /// Children `begin` on, as many as a register holds.
 template <class D>
 HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode16& node, int begin) {
@@ -118,7 +122,7 @@ struct QuantizedStore {
     const hn::RebindToSigned<D> di;
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<std::uint8_t, D> bytes;
-    const Node& packed = reinterpret_cast<const Node*>(view.base)[reference >> 1];
+    const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
     const float infinity = std::numeric_limits<float>::infinity();
     for (int begin = 0; begin < N; begin += lanes_of<D>) {
       const auto references = references_of(d, packed, begin);
@@ -139,28 +143,27 @@ struct QuantizedStore {
   }
 
   static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
-    const Node& packed = reinterpret_cast<const Node*>(view.base)[reference >> 1];
+    const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
     return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), power_of_two(packed.exponent[row / 2]),
                           packed.origin[row / 2]);
   }
 
   static HWY_INLINE const LeafBlock<8>& block(const WideView& view, WideReference reference, std::size_t number,
                                               BlockBuffer& out) {
-    const std::uint32_t* words = view.leaf_words + (reference >> 1) + number * 8;
+    const auto* words = reinterpret_cast<const std::uint32_t*>(place_of(view, reference));
     if (HWY_LIKELY((words[0] & packed_leaf) != 0)) {
+      for (; number > 0; --number) words += PackedLeafHead(words[0]).words();
       unpack_leaf(words, out);
       return out;
     }
-    const int count = load_names(words, out.primitives);
+    const int count = load_names(words + number * 8, out.primitives);
     gather_vertices(view, count, out);
     out.primitives[0] |= count > 8 ? more_blocks : 0;
     return out;
   }
 
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
-    const std::byte* node = view.base + std::size_t{reference >> 1} * sizeof(Node);
-    const auto* leaf = reinterpret_cast<const std::byte*>(view.leaf_words + (reference >> 1));
-    const std::byte* place = is_leaf(reference) ? leaf : node;
+    const std::byte* place = place_of(view, reference);
     for (std::size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(place + line);
   }
   static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) { prefetch(view, reference); }

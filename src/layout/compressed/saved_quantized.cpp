@@ -1,5 +1,5 @@
-// Compressed trees in files. Some of their leaves only name triangles, so the mesh goes with them: leaves, positions,
-// triangles.
+// Compressed trees in files. Some of their leaves only name triangles, so the mesh goes with them:
+// positions, triangles.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -14,24 +14,20 @@
 namespace boxwood {
 namespace {
 
-struct LeavesAndMesh {
-  std::span<const std::uint32_t> words;
+struct SavedMesh {
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
 };
 
-/// Throws Error when the leaves are not as long as the facts say.
-LeavesAndMesh split_leaves(const SavedLevel& level) {
+/// Throws Error when it is not as long as the facts say.
+SavedMesh mesh_of(const SavedLevel& level) {
   const std::size_t size = level.leaves.size();
   const std::uint64_t vertices = level.facts.vertices, triangles = level.facts.primitives;
-  const bool fits = vertices <= size / sizeof(Vec3) && triangles <= size / sizeof(Triangle) &&
-                    vertices * sizeof(Vec3) + triangles * sizeof(Triangle) <= size;
-  const std::size_t begin_of_mesh = fits ? size - vertices * sizeof(Vec3) - triangles * sizeof(Triangle) : 0;
-  if (begin_of_mesh < (1 + words_at_once) * sizeof(std::uint32_t)) throw Error("its mesh ends within a triangle");
-  const auto mesh = level.leaves.subspan(begin_of_mesh);
-  return {elements_of<std::uint32_t>(level.leaves.first(begin_of_mesh), "words of leaves"),
-          elements_of<Vec3>(mesh.first(vertices * sizeof(Vec3)), "vertices"),
-          elements_of<Triangle>(mesh.subspan(vertices * sizeof(Vec3)), "triangles")};
+  if (vertices > size / sizeof(Vec3) || vertices * sizeof(Vec3) + triangles * sizeof(Triangle) != size) {
+    throw Error("its mesh ends within a triangle");
+  }
+  return {elements_of<Vec3>(level.leaves.first(vertices * sizeof(Vec3)), "vertices"),
+          elements_of<Triangle>(level.leaves.subspan(vertices * sizeof(Vec3)), "triangles")};
 }
 
 /// A compressed tree in memory that someone else keeps.
@@ -40,43 +36,41 @@ struct KeptQuantized {
   WideView view;
   WideShape shape;
 
-  std::size_t bytes() const { return level.nodes.size() + split_leaves(level).words.size_bytes(); }
+  std::size_t bytes() const { return level.nodes.size(); }
   std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
   void save(SavedLevel& out) const { out = level; }
 };
 
-/// What lies where; each node and each word of a leaf may belong to one thing only.
+/// What lies where; each word may belong to one thing only.
 template <class Node, int N>
 class QuantizedCheck {
  public:
   explicit QuantizedCheck(const SavedLevel& level)
-      : facts_(level.facts), nodes_(elements_of<Node>(level.nodes, "nodes")), leaves_(split_leaves(level)) {}
+      : facts_(level.facts), words_(elements_of<std::uint32_t>(level.nodes, "words")), mesh_(mesh_of(level)) {}
 
   std::string run() {
-    if (nodes_.size() < 2) return "it has no root";
-    for (const Triangle& triangle : leaves_.triangles) {
+    for (const Triangle& triangle : mesh_.triangles) {
       for (const std::uint32_t vertex : triangle) {
-        if (vertex >= leaves_.positions.size()) return "a triangle of its mesh names a vertex that it does not have";
+        if (vertex >= mesh_.positions.size()) return "a triangle of its mesh names a vertex that it does not have";
       }
     }
-    node_taken_.resize(nodes_.size());
-    word_taken_.resize(leaves_.words.size());
-    const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root, facts_.stack, *this);
+    taken_.resize(words_.size());
+    const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root(sizeof(Node)), facts_.stack, *this);
     if (!bad) return {};
     return fmt::format("{} {} is none that any walk could use", is_leaf(*bad) ? "leaf" : "node", *bad >> 1);
   }
 
   const Node* take_node(WideReference reference) {
-    const std::uint32_t number = reference >> 1;
-    if (number == 0 || number >= nodes_.size() || node_taken_[number]) return nullptr;
-    node_taken_[number] = true;
-    return &nodes_[number];
+    const std::size_t place = reference >> 1;
+    const bool aligned = place * sizeof(std::uint32_t) % alignof(Node) == 0;
+    if (place == 0 || !aligned || !take_words(place, sizeof(Node) / sizeof(std::uint32_t))) return nullptr;
+    return reinterpret_cast<const Node*>(&words_[place]);
   }
 
   bool take_leaf(WideReference reference) {
     const std::size_t place = reference >> 1;
-    if (place == 0 || place >= leaves_.words.size()) return false;
-    return (leaves_.words[place] & packed_leaf) != 0 ? take_packed(place) : take_names(place);
+    if (place == 0 || place >= words_.size()) return false;
+    return (words_[place] & packed_leaf) != 0 ? take_packed(place) : take_names(place);
   }
 
   /// As the kernels find it, in the same arithmetic; 0 where there is none.
@@ -102,10 +96,10 @@ class QuantizedCheck {
  private:
   /// Takes `size` words, behind which there are enough for kernels to read.
   bool take_words(std::size_t place, std::size_t size) {
-    if (place + size + words_at_once > leaves_.words.size()) return false;
+    if (place + size + words_at_once > words_.size()) return false;
     for (std::size_t i = place; i < place + size; ++i) {
-      if (word_taken_[i]) return false;
-      word_taken_[i] = true;
+      if (taken_[i]) return false;
+      taken_[i] = true;
     }
     return true;
   }
@@ -113,23 +107,33 @@ class QuantizedCheck {
   bool take_names(std::size_t place) {
     for (bool more = true; more; ++place) {
       if (!take_words(place, 1)) return false;
-      const std::uint32_t name = leaves_.words[place];
-      if ((name & ~last_of_leaf) >= leaves_.triangles.size()) return false;
+      const std::uint32_t name = words_[place];
+      if ((name & ~last_of_leaf) >= mesh_.triangles.size()) return false;
       more = (name & last_of_leaf) == 0;
     }
     return true;
   }
 
   bool take_packed(std::size_t place) {
-    const std::uint32_t* words = &leaves_.words[place];
+    for (bool more = true; more;) {
+      if (place >= words_.size()) return false;
+      const PackedLeafHead head(words_[place]);
+      if (!take_words(place, head.words()) || !is_sound_packed(&words_[place])) return false;
+      more = (words_[place] & packed_more) != 0;
+      place += head.words();
+    }
+    return true;
+  }
+
+  bool is_sound_packed(const std::uint32_t* words) const {
+    if ((words[0] & ~packed_more) >> 27 != packed_leaf >> 27) return false;
     const PackedLeafHead head(words[0]);
-    if (words[0] >> 27 != packed_leaf >> 27 || !take_words(place, head.words())) return false;
     PackedBits indices(words, PackedLeafHead::begin_of_indices), numbers(words, head.begin_of_numbers());
     for (std::uint32_t i = 0; i < 3 * head.triangles; ++i) {
       if (indices.take(4) >= head.corners) return false;
     }
     for (std::uint32_t i = 0; i < head.triangles; ++i) {
-      if (std::uint64_t{words[1]} + numbers.take(head.bits[3]) >= leaves_.triangles.size()) return false;
+      if (std::uint64_t{words[1]} + numbers.take(head.bits[3]) >= mesh_.triangles.size()) return false;
     }
     return true;
   }
@@ -141,9 +145,9 @@ class QuantizedCheck {
   }
 
   const SavedFacts& facts_;
-  std::span<const Node> nodes_;
-  LeavesAndMesh leaves_;
-  std::vector<bool> node_taken_, word_taken_;
+  std::span<const std::uint32_t> words_;
+  SavedMesh mesh_;
+  std::vector<bool> taken_;
 };
 
 /// Calls use.template operator()<Node, N>() for the nodes that the level has.
@@ -165,14 +169,14 @@ std::shared_ptr<const Layout> restore_quantized(const SavedLevel& level, const T
   const SavedFacts& facts = level.facts;
   if (trace != TraceOptions{}) throw Error("it is to be walked in a way that its nodes are not made for");
   if (facts.stack > wide_stack_limit) throw Error("it is deeper than any walk can go");
-  const LeavesAndMesh leaves = split_leaves(level);
-  WideView view = quantized_view(level.nodes.data(), leaves.words.data(), leaves.positions, leaves.triangles);
-  view.reach = facts.reach;
-  view.stack = facts.stack;
-  view.out_of_cache = facts.out_of_cache != 0;
+  const SavedMesh mesh = mesh_of(level);
   return with_nodes(facts, [&]<class Node, int N>() -> std::shared_ptr<const Layout> {
-    if (elements_of<Node>(level.nodes, "nodes").size() < 2) throw Error("it has no root");
-    const WideShape shape{facts.nodes, level.nodes.size(), N, facts.inner_children, facts.triangles};
+    if (level.nodes.size() < 2 * sizeof(Node)) throw Error("it has no root");
+    WideView view = quantized_view(level.nodes.data(), sizeof(Node), mesh.positions, mesh.triangles);
+    view.reach = facts.reach;
+    view.stack = facts.stack;
+    view.out_of_cache = facts.out_of_cache != 0;
+    const WideShape shape{facts.nodes, facts.nodes * sizeof(Node), N, facts.inner_children, facts.triangles};
     return std::make_shared<SimdLayout<KeptQuantized>>(KeptQuantized{level, view, shape}, compressed_kernels<N>());
   });
 }
@@ -193,14 +197,13 @@ void QuantizedArena::save(SavedLevel& out) const {
   out.facts.nodes = shape.nodes;
   out.facts.inner_children = shape.children;
   out.facts.triangles = shape.triangles;
-  out.nodes = {nodes.data(), nodes.bytes()};
-  const auto with_mesh = std::make_shared<std::vector<std::byte>>();
-  const std::span words(leaves.data(), leaves.bytes());
-  for (const auto part : {words, std::as_bytes(positions), std::as_bytes(triangles)}) {
-    with_mesh->insert(with_mesh->end(), part.begin(), part.end());
+  out.nodes = {memory.data(), memory.bytes()};
+  const auto mesh = std::make_shared<std::vector<std::byte>>();
+  for (const auto part : {std::as_bytes(positions), std::as_bytes(triangles)}) {
+    mesh->insert(mesh->end(), part.begin(), part.end());
   }
-  out.leaves = *with_mesh;
-  out.owner = with_mesh;
+  out.leaves = *mesh;
+  out.owner = mesh;
 }
 
 SavedKindEntry saved_quantized() {
