@@ -179,7 +179,7 @@ class Encoder {
     const Grid grid = grid_over(box);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       node.origin[axis] = grid.origin[axis];
-      node.exponent[axis] = grid.exponent[axis];
+      node.exponent[axis] = static_cast<std::uint8_t>(grid.exponent[axis] + exponent_bias);
       for (std::size_t c = 0; c < children.size(); ++c) {
         node.planes[2 * axis][c] = round_down(grid, axis, children[c].bounds.lower[axis]);
         node.planes[2 * axis + 1][c] = round_up(grid, axis, children[c].bounds.upper[axis]);
@@ -197,11 +197,11 @@ class Encoder {
   void write(QuantizedNode8& node, const Box& box, std::span<const Tree::Node> children) {
     write_boxes(node, box, children);
     std::ranges::fill(node.place, static_cast<std::uint8_t>(no_child));
-    node.first_node = next_node_;
-    node.first_leaf = next_leaf_;
+    node.first_node = next_node_ * 2;
+    node.first_leaf = next_leaf_ * 2 + 1;
     for (std::size_t c = 0; c < children.size(); ++c) {
       const bool leaf = children[c].is_leaf();
-      const std::uint32_t distance = place(children[c]) - (leaf ? node.first_leaf : node.first_node);
+      const std::uint32_t distance = place(children[c]) - (leaf ? node.first_leaf : node.first_node) / 2;
       if (distance >= no_child) {
         throw UsageError(fmt::format(
             "'compressed(8)' has room for {} triangles before the last leaf of a node, not {}; make smaller "

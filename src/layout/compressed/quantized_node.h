@@ -13,16 +13,16 @@ namespace boxwood {
 /// A plane of a child lies at origin + q * scale: exactly the float that fused multiply-add gives, so the encoder knows
 /// it, too. Rows as in WideNode. Eight children, 80 bytes:
 ///    0  planes, 8 bytes a row
-///   48  origin, then one exponent of two per axis
+///   48  origin, then per axis the exponent of two plus 127
 ///   63  which children are nodes, one bit each
-///   64  places of the first child that is a node and of the first that is a leaf
+///   64  references of the first child that is a node and of the first that is a leaf
 ///   72  per child: distance in words from that; 255: no child
 struct alignas(16) QuantizedNode8 {
   std::uint8_t planes[6][8];
   float origin[3];
-  std::int8_t exponent[3];
+  std::uint8_t exponent[3];
   std::uint8_t inner;
-  std::uint32_t first_node, first_leaf;
+  WideReference first_node, first_leaf;
   std::uint8_t place[8];
 };
 static_assert(sizeof(QuantizedNode8) == 80);
@@ -31,7 +31,7 @@ static_assert(sizeof(QuantizedNode8) == 80);
 struct alignas(64) QuantizedNode16 {
   std::uint8_t planes[6][16];
   float origin[3];
-  std::int8_t exponent[3];
+  std::uint8_t exponent[3];
   std::uint8_t unused;
   WideReference children[16];
 };

@@ -20,31 +20,33 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float power_of_two(std::int8_t exponent) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
-}
+HWY_INLINE float step_of(std::uint8_t exponent) { return std::bit_cast<float>(std::uint32_t{exponent} << 23); }
 
 HWY_INLINE const std::byte* place_of(const WideView& view, WideReference reference) {
   return view.base + std::size_t{reference >> 1} * sizeof(std::uint32_t);
 }
 
-/// Children `begin` on, as many as a register holds.
+/// Children `begin` on, as many as a register holds, and where there are any; elsewhere references mean nothing.
 template <class D>
-HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode16& node, int begin) {
-  return hn::LoadU(hn::RebindToUnsigned<D>(), node.children + begin);
+struct Children {
+  hn::Vec<D> references;
+  hn::Mask<D> some;
+};
+
+template <class D>
+HWY_INLINE Children<D> children_of(D d, const QuantizedNode16& node, int begin) {
+  const auto references = hn::LoadU(d, node.children + begin);
+  return {references, hn::Ne(references, hn::Zero(d))};
 }
 
 template <class D>
-HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode8& node, int begin) {
-  const hn::RebindToUnsigned<D> du;
-  const hn::RebindToSigned<D> di;
+HWY_INLINE Children<D> children_of(D d, const QuantizedNode8& node, int begin) {
   const hn::Rebind<std::uint8_t, D> bytes;
-  const auto place = hn::PromoteTo(du, hn::LoadU(bytes, node.place + begin));
-  const auto bit = hn::BitCast(du, hn::Shl(hn::Set(di, 1), hn::Iota(di, begin)));
-  const auto inner = hn::TestBit(hn::Set(du, node.inner), bit);
-  const auto first = hn::IfThenElse(inner, hn::Set(du, node.first_node * 2), hn::Set(du, node.first_leaf * 2 + 1));
-  const auto reference = hn::Add(first, hn::Add(place, place));
-  return hn::IfThenZeroElse(hn::Eq(place, hn::Set(du, no_child)), reference);
+  const auto place = hn::PromoteTo(d, hn::LoadU(bytes, node.place + begin));
+  const auto inner_bits = static_cast<std::uint8_t>(node.inner >> begin);
+  const auto inner = hn::LoadMaskBits(d, &inner_bits);
+  const auto first = hn::IfThenElse(inner, hn::Set(d, node.first_node), hn::Set(d, node.first_leaf));
+  return {hn::Add(first, hn::Add(place, place)), hn::Ne(place, hn::Set(d, no_child))};
 }
 
 /// The names of up to eight triangles, the first again for those missing. Returns how many there are; more than eight
@@ -125,16 +127,15 @@ struct QuantizedStore {
     const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
     const float infinity = std::numeric_limits<float>::infinity();
     for (int begin = 0; begin < N; begin += lanes_of<D>) {
-      const auto references = references_of(d, packed, begin);
-      hn::Store(references, du, out.children + begin);
+      const auto children = children_of(du, packed, begin);
+      hn::Store(hn::IfThenElseZero(children.some, children.references), du, out.children + begin);
       for (int row = 0; row < 6; ++row) {
         const auto q = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(bytes, packed.planes[row] + begin)));
         // Exact product, one rounding: the same fused or not.
-        auto plane =
-            hn::MulAdd(q, hn::Set(d, power_of_two(packed.exponent[row / 2])), hn::Set(d, packed.origin[row / 2]));
+        auto plane = hn::MulAdd(q, hn::Set(d, step_of(packed.exponent[row / 2])), hn::Set(d, packed.origin[row / 2]));
         if (row < 2) {  // no ray meets a box that is inverted on one axis
-          const auto none = hn::RebindMask(d, hn::Eq(references, hn::Zero(du)));
-          plane = hn::IfThenElse(none, hn::Set(d, row == 0 ? infinity : -infinity), plane);
+          const auto none = hn::Set(d, row == 0 ? infinity : -infinity);
+          plane = hn::IfThenElse(hn::RebindMask(d, children.some), plane, none);
         }
         hn::Store(plane, d, out.planes[row] + begin);
       }
@@ -144,7 +145,7 @@ struct QuantizedStore {
 
   static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
     const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
-    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), power_of_two(packed.exponent[row / 2]),
+    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), step_of(packed.exponent[row / 2]),
                           packed.origin[row / 2]);
   }
 

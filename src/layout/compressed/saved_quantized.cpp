@@ -85,7 +85,7 @@ class QuantizedCheck {
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       grid.origin[axis] = node.origin[axis];
-      grid.exponent[axis] = node.exponent[axis];
+      grid.exponent[axis] = static_cast<std::int8_t>(node.exponent[axis] - exponent_bias);
       out.lower[axis] = grid.at(axis, node.planes[2 * axis][lane]);
       out.upper[axis] = grid.at(axis, node.planes[2 * axis + 1][lane]);
     }
@@ -141,7 +141,7 @@ class QuantizedCheck {
   static WideReference child_of_eight(const QuantizedNode8& node, int lane) {
     if (node.place[lane] == no_child) return wide_nothing;
     const bool inner = (node.inner >> lane & 1) != 0;
-    return (inner ? node.first_node * 2 : node.first_leaf * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
+    return (inner ? node.first_node : node.first_leaf) + std::uint32_t{node.place[lane]} * 2;
   }
 
   const SavedFacts& facts_;
