@@ -55,7 +55,10 @@ bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
     const auto bits = bits_of_position(mesh.positions[mesh.triangles[name][vertex]]);
     std::uint32_t i = 0;
     while (i < size && (corner_[0][i] != bits[0] || corner_[1][i] != bits[1] || corner_[2][i] != bits[2])) ++i;
-    if (i == most_packed_corners) return false;
+    if (i == most_packed_corners) {
+      for (auto& of_vertex : index_) of_vertex[triangles_] = 0;
+      return false;
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) corner_[axis][i] = bits[axis];
     size = std::max(size, i + 1);
     index_[vertex][triangles_] = static_cast<std::uint8_t>(i);
@@ -70,26 +73,24 @@ void OwnCorners::measure() {
     const auto [least, most] = std::ranges::minmax(values);
     base_[stream] = least & kept;
     width_[stream] = static_cast<std::uint32_t>(std::bit_width(most - base_[stream]));
-    if (width_[stream] == 31) width_[stream] = 32;
   };
   for (std::size_t axis = 0; axis < 3; ++axis) set(axis, std::span(corner_[axis]).first(corners_), kept_of_base);
   set(3, std::span(names_).first(triangles_), ~0u);
 }
 
 std::uint32_t OwnCorners::head() const {
-  std::uint32_t word = packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3;
-  for (std::size_t stream = 0; stream < 4; ++stream) word |= std::min(width_[stream], 31u) << (7 + 5 * stream);
-  return word;
+  return packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3 | width_[0] << 7 | width_[1] << 13 | width_[2] << 19 |
+         width_[3] << 25;
 }
 
 void OwnCorners::pack(std::uint32_t* out, bool more) const {
   BitWriter bits(out);
   bits.put(head() | (more ? packed_more : 0), 32);
   bits.put(base_[3], 32);
-  for (std::size_t axis = 0; axis < 3; ++axis) bits.put(base_[axis] >> 16, 16);
   for (const auto& of_vertex : index_) {
-    for (std::size_t i = 0; i < triangles_; ++i) bits.put(of_vertex[i], 4);
+    for (const std::uint8_t index : of_vertex) bits.put(index, 4);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) bits.put(base_[axis] >> 16, 16);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], width_[axis]);
   }

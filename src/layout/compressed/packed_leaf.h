@@ -13,13 +13,12 @@ namespace boxwood {
 /// A packed leaf, or a part of a larger one, is a run of 32-bit words, a stream of bits from the lowest of the first
 /// word on:
 ///     0  triangles less one, 3 bits; corners less one, 4 bits
-///     7  bits per difference in x, y, z and of a number, 5 bits each; 31 says 32
-///    27  1 when more triangles of the leaf follow, packed likewise; two bits of zero; 1 for `packed_leaf`; zero
+///     7  bits per difference in x, y, z, 6 each, and of a number, 5
+///    30  1 for `packed_leaf`; 1 when more triangles of the leaf follow, packed likewise
 ///    32  the least number of a triangle
-///    64  the base of x, y, z: the upper 16 bits of a float each
-///   112  which corner is the first of each triangle, then which the second, then the third, 4 bits each
-///        then of each corner x less its base, as integers; the same of y and z; of each triangle its number less the
-///        least
+///    64  which corner is the first of each triangle, eight times 4 bits; of missing ones 0; then the second, the third
+///   160  the base of x, y, z: the upper 16 bits of a float each
+///   208  of each corner x less its base, as integers; the same of y and z; of each triangle its number less the least
 /// Filled up with zeros to whole words.
 struct PackedLeafHead {
   std::uint32_t triangles, corners;
@@ -28,17 +27,13 @@ struct PackedLeafHead {
   explicit constexpr PackedLeafHead(std::uint32_t word)
       : triangles((word & 7) + 1),
         corners((word >> 3 & 15) + 1),
-        bits{width(word >> 7), width(word >> 12), width(word >> 17), width(word >> 22)} {}
+        bits{word >> 7 & 63, word >> 13 & 63, word >> 19 & 63, word >> 25 & 31} {}
 
-  static constexpr std::uint32_t begin_of_indices = 112;
-  constexpr std::uint32_t begin_of_corners() const { return begin_of_indices + 12 * triangles; }
+  static constexpr std::uint32_t begin_of_indices = 64, begin_of_bases = 160, begin_of_corners = 208;
   constexpr std::uint32_t begin_of_numbers() const {
-    return begin_of_corners() + corners * (bits[0] + bits[1] + bits[2]);
+    return begin_of_corners + corners * (bits[0] + bits[1] + bits[2]);
   }
   constexpr std::uint32_t words() const { return (begin_of_numbers() + triangles * bits[3] + 31) / 32; }
-
- private:
-  static constexpr std::uint32_t width(std::uint32_t code) { return (code & 31) + ((code & 31) + 1) / 32; }
 };
 
 inline constexpr std::uint32_t most_packed_triangles = 8, most_packed_corners = 16;
@@ -46,7 +41,7 @@ inline constexpr std::uint32_t most_packed_triangles = 8, most_packed_corners = 
 /// Set in the first word of a packed leaf; in no name of a triangle.
 inline constexpr std::uint32_t packed_leaf = 1u << 30;
 /// Set there when more triangles of the leaf follow.
-inline constexpr std::uint32_t packed_more = 1u << 27;
+inline constexpr std::uint32_t packed_more = 1u << 31;
 
 /// Kernels read up to this many words from the end of a packed leaf on.
 inline constexpr std::size_t words_at_once = 17;

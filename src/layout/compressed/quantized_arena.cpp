@@ -60,7 +60,12 @@ class LeafSizes {
     std::size_t total = tree_.references.size(), most_growth = 0;
     while (most_growth < grown.size() && total + grown[most_growth] <= most) total += grown[most_growth++];
     for (std::size_t i = 0; i < packed_.size(); ++i) {
-      if (growth(i) >= most_growth) packed_[i] = 0;
+      if (growth(i) < most_growth) continue;
+      if (growth(i) == most_growth && total + most_growth <= most) {
+        total += most_growth;
+      } else {
+        packed_[i] = 0;
+      }
     }
   }
 
@@ -105,7 +110,8 @@ class Encoder {
         std::ranges::count_if(tree.nodes, [](const Tree::Node& node) { return !node.is_leaf(); }));
     node_bytes_ = (inner + 2) * sizeof(Node);  // none at 0, and a root even of one leaf or nothing
     const std::size_t bytes = bytes_per_triangle * std::min(mesh.triangles.size(), tree.references.size());
-    sizes_.fit((bytes - std::min(bytes, node_bytes_)) / sizeof(std::uint32_t));
+    const std::size_t others = node_bytes_ + words_at_once * sizeof(std::uint32_t);
+    sizes_.fit((bytes - std::min(bytes, others)) / sizeof(std::uint32_t));
     if (sizeof(Node) == sizeof(QuantizedNode8)) sizes_.fit_nodes(no_child - 1);
     out_.memory = Arena(node_bytes_ + (sizes_.total() + words_at_once) * sizeof(std::uint32_t));
     words_ = reinterpret_cast<std::uint32_t*>(out_.memory.data());

@@ -126,10 +126,10 @@ class QuantizedCheck {
   }
 
   bool is_sound_packed(const std::uint32_t* words) const {
-    if ((words[0] & ~packed_more) >> 27 != packed_leaf >> 27) return false;
     const PackedLeafHead head(words[0]);
+    if ((words[0] & packed_leaf) == 0 || std::ranges::max(head.bits) > 32) return false;
     PackedBits indices(words, PackedLeafHead::begin_of_indices), numbers(words, head.begin_of_numbers());
-    for (std::uint32_t i = 0; i < 3 * head.triangles; ++i) {
+    for (std::uint32_t i = 0; i < 3 * most_packed_triangles; ++i) {
       if (indices.take(4) >= head.corners) return false;
     }
     for (std::uint32_t i = 0; i < head.triangles; ++i) {
