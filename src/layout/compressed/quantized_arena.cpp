@@ -16,7 +16,7 @@
 namespace boxwood {
 namespace {
 
-constexpr std::size_t small_tree_bytes = std::size_t{4} << 20;
+constexpr std::size_t small_tree_bytes = std::size_t{1} << 20;
 
 /// Calls visit(index, names of its triangles) for each leaf, in parallel.
 template <class Visit>
