@@ -42,7 +42,7 @@ const Row rows[] = {
     FIELD("compressed", QuantizedNode8, exponent),
     FIELD("compressed", QuantizedNode8, inner),
     FIELD("compressed", QuantizedNode8, first_node),
-    FIELD("compressed", QuantizedNode8, first_primitive),
+    FIELD("compressed", QuantizedNode8, first_leaf),
     FIELD("compressed", QuantizedNode8, place),
     {"slab", "SlabNode", offsetof(SlabNode<Word32>, plane), sizeof(SlabNode<Word32>::plane), "`plane"},
     {"slab", "SlabNode", offsetof(SlabNode<Word32>, word), sizeof(SlabNode<Word32>::word), "`word"},

@@ -155,7 +155,7 @@ TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
     std::uint32_t reference;  // the root's own
   };
   // Offsets as wide_node.h and quantized_node.h give them.
-  const Root roots[] = {{"binned > wide(16)", 64 + 384, 4}, {"binned > collapse(16) > compressed(16)", 192 + 112, 2}};
+  const Root roots[] = {{"binned > wide(16)", 64 + 384, 4}, {"binned > collapse(16) > compressed(16)", 192 + 112, 96}};
   const Folder folder;
   for (const Root& root : roots) {
     save(build(soup(60, 0.5f, 5), root.recipe), folder.file("good"));

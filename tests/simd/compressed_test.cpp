@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "boxwood/error.h"
 #include "layout/compressed/compressed_kernels.h"
+#include "layout/compressed/packed_leaf-inl.h"
 #include "layout/compressed/quantize.h"
 #include "layout/compressed/quantized_arena.h"
 #include "layout/simd/simd_layout.h"
@@ -135,6 +137,99 @@ TEST(Compressed, Bytes_AreAtMostTwentyPerTriangle) {
     const auto layout = encode(width, test_tree(mesh, width, 8), mesh);
     EXPECT_LE(layout->bytes(), 20 * mesh.triangles.size());
   }
+}
+
+/// A mesh of triangles one after the other, and a leaf that has them all.
+Mesh separate_triangles(std::span<const Vec3> corners) {
+  Mesh mesh;
+  mesh.positions.assign(corners.begin(), corners.end());
+  for (std::uint32_t i = 0; i + 2 < corners.size(); i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+  return mesh;
+}
+
+/// Every part of a packed leaf as the kernels of one instruction set unpack it, and as bits are taken one by one.
+void expect_unpacks(const Mesh& mesh, std::span<const std::uint32_t> names) {
+  std::size_t done = 0;
+  for_each_packed(names, mesh, [&](const OwnCorners& part, bool more) {
+    std::vector<std::uint32_t> words(part.words() + words_at_once);
+    part.pack(words.data(), more);
+    LeafBlock<8> block;
+    HWY_NAMESPACE::unpack_leaf(words.data(), block);
+    const PackedLeafHead head(words[0]);
+    ASSERT_EQ(head.words(), part.words());
+    ASSERT_EQ(head.triangles, part.triangles());
+    ASSERT_LE(head.corners, most_packed_corners);
+    ASSERT_EQ((block.primitives[0] & more_blocks) != 0, more);
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      const bool used = lane < part.triangles();
+      const std::uint32_t name = names[done + (used ? lane : 0)];
+      ASSERT_EQ(used ? block.primitives[lane] & ~more_blocks : name, name);
+      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        const Vec3 got{block.vertices[vertex][0][lane], block.vertices[vertex][1][lane],
+                       block.vertices[vertex][2][lane]};
+        const Vec3& expected = mesh.positions[mesh.triangles[name][used ? vertex : 0]];
+        ASSERT_EQ(std::memcmp(&got, &expected, sizeof got), 0) << "lane " << lane << " vertex " << vertex;
+      }
+    }
+    done += part.triangles();
+  });
+  ASSERT_EQ(done, names.size());
+}
+
+TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
+  TestRandom random(11);
+  for (int n = 0; n < 2000; ++n) {
+    const float place = std::ldexp(1.0f, static_cast<int>(random.between(-40, 39)));
+    const float size = std::ldexp(place, -static_cast<int>(random.between(0, 30)));
+    const Vec3 center = random.point(-place, place);
+    std::vector<Vec3> corners(3 * static_cast<std::size_t>(random.between(1, 20)));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = i > 2 && n % 3 != 0 && random.between(0, 1) < 0.7f ? corners[i - 1 - i / 2]
+                                                                      : center + random.point(-size, size);
+      if (n % 5 == 0) corners[i].y = -0.0f;
+      if (n % 7 == 0) corners[i].x *= i % 2 == 0 ? 1e-30f : -1;
+    }
+    const Mesh mesh = separate_triangles(corners);
+    std::vector<std::uint32_t> names(mesh.triangles.size());
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = static_cast<std::uint32_t>(names.size() - 1 - i);
+    ASSERT_NO_FATAL_FAILURE(expect_unpacks(mesh, names)) << n;
+  }
+}
+
+TEST(PackedLeaf, OfSeventeenCornersAndMore_HasParts) {
+  std::vector<Vec3> corners(24);
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = {static_cast<float>(i), 1, 2};
+  const Mesh mesh = separate_triangles(corners);
+  const std::vector<std::uint32_t> names = {0, 1, 2, 3, 4, 5, 6, 7};
+  std::vector<std::size_t> parts;
+  for_each_packed(names, mesh, [&](const OwnCorners& part, bool) { parts.push_back(part.triangles()); });
+  EXPECT_EQ(parts, (std::vector<std::size_t>{5, 3}));
+  expect_unpacks(mesh, names);
+}
+
+TEST(PackedLeaf, OfOneTriangleManyTimes_HasItsCornersOnce) {
+  const std::vector<Vec3> corners = {{1, 2, 3}, {1, 2, 3}, {4, 5, 6}};  // a line
+  const Mesh mesh = separate_triangles(corners);
+  const std::vector<std::uint32_t> names(8, 0);
+  for_each_packed(names, mesh, [&](const OwnCorners& part, bool) {
+    std::vector<std::uint32_t> words(part.words());
+    part.pack(words.data(), false);
+    EXPECT_EQ(PackedLeafHead(words[0]).corners, 2u);
+  });
+  expect_unpacks(mesh, names);
+}
+
+TEST(Compressed, SeparateTriangles_NameThoseThatNeedMoreThanTwentyBytes) {
+  const Scene scene = test_scene("random");
+  const Mesh& mesh = scene.meshes.front();
+  std::vector<Vec3> corners;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) corners.push_back(mesh.positions[vertex]);
+  }
+  const Mesh separate = separate_triangles(corners);
+  const auto layout = encode(8, test_tree(separate, 8, 8), separate);
+  EXPECT_LE(layout->bytes(), bytes_per_triangle * separate.triangles.size());
+  EXPECT_GE(layout->bytes(), (bytes_per_triangle - 1) * separate.triangles.size()) << "what there is room for is used";
 }
 
 TEST(Compressed, LeavesTooLargeForTheirNode_AreRefusedOrNumbered) {

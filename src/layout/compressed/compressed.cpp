@@ -36,7 +36,7 @@ std::shared_ptr<const Layout> encode_wide_instead(std::uint32_t k, Tree tree, co
 std::shared_ptr<const Layout> encode(const CompressedOptions& options, Tree tree, const Contents& contents,
                                      const TraceOptions& trace) {
   const std::uint32_t width = options.k <= 8 ? 8 : 16;
-  if (!simd_wide_supports(width, tree, contents, trace) || !has_quantized_names(tree)) {
+  if (!simd_wide_supports(width, tree, contents, trace) || !has_quantized_names(tree, *contents.mesh)) {
     return encode_wide_instead(options.k, std::move(tree), contents, trace);
   }
   if (width == 8 && fits_eight(tree)) return make<QuantizedNode8, 8>(tree, *contents.mesh);

@@ -19,7 +19,7 @@ template <class Node, int N>
 class OpenNode<QuantizedStore<Node, N>> {
  public:
   HWY_INLINE OpenNode(const WideView& view, WideReference reference)
-      : node_(reinterpret_cast<const Node*>(view.base)[reference >> 1]) {}
+      : node_(*reinterpret_cast<const Node*>(place_of(view, reference))) {}
 
   /// A plane's distance is (origin + q * step) / direction - offset, taken as q * (step / direction) plus what all
   /// children share. The first product is exact; what the sum rounds once more, and the plane once less, is at most two
@@ -37,13 +37,13 @@ class OpenNode<QuantizedStore<Node, N>> {
     const auto far_plane = [&](int axis) { return plane(axis, slot.near_row[axis] ^ N, axes.far_begin[axis]); };
     const auto entry = hn::Max(hn::Max(near_plane(0), near_plane(1)), hn::Max(near_plane(2), hn::Set(d, slot.t_near)));
     const auto exit = hn::Min(hn::Min(far_plane(0), far_plane(1)), hn::Min(far_plane(2), hn::Set(d, slot.t_limit)));
-    const auto some = hn::RebindMask(d, hn::Ne(children(d, begin), hn::Zero(hn::RebindToUnsigned<D>())));
-    return {entry, hn::And(some, hn::Le(entry, exit))};
+    const auto some = children_of(hn::RebindToUnsigned<D>(), node_, begin).some;
+    return {entry, hn::And(hn::RebindMask(d, some), hn::Le(entry, exit))};
   }
 
   template <class D>
-  HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> children(D d, int begin) const {
-    return references_of(d, node_, begin);
+  HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> children(D, int begin) const {
+    return children_of(hn::RebindToUnsigned<D>(), node_, begin).references;
   }
 
  private:
@@ -54,8 +54,9 @@ class OpenNode<QuantizedStore<Node, N>> {
     HWY_INLINE Axes(const Node& node, const Slot& slot) {
       const hn::FixedTag<float, 4> d;
       const hn::RebindToSigned<decltype(d)> di;
-      const auto exponent = hn::PromoteTo(di, hn::LoadU(hn::Rebind<std::int8_t, decltype(d)>(), node.exponent));
-      const auto size = hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(exponent, hn::Set(di, 127))));
+      const auto exponent = hn::PromoteTo(di, hn::LoadU(hn::Rebind<std::uint8_t, decltype(d)>(), node.exponent));
+      // The fourth lane holds `inner`; shifted, no slow number.
+      const auto size = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
       // The fourth lanes hold what comes next in memory; of the node nothing: its bits might be a slow denormal.
       const auto origin = hn::MaskedLoad(hn::FirstN(d, 3), d, node.origin);
       const auto inverse = hn::LoadU(d, slot.inverse);

@@ -6,6 +6,9 @@
 
 namespace boxwood {
 
+/// Added to exponents of grids where nodes keep them, as floats do.
+inline constexpr int exponent_bias = 127;
+
 /// An 8-bit grid over a box: coordinate q of an axis is origin + q * 2^exponent, rounded once.
 struct Grid {
   Vec3 origin;

@@ -7,22 +7,22 @@
 
 namespace boxwood {
 
-/// References in a compressed tree: the number of a node times two, or the place of a leaf's first primitive times two
-/// plus one. Number and place 0 are never used.
+/// References in a compressed tree: the place of a node's or a leaf's first 32-bit word times two, plus one for a leaf.
+/// Place 0 is never used. A leaf is packed (packed_leaf.h) or the names of its triangles.
 
 /// A plane of a child lies at origin + q * scale: exactly the float that fused multiply-add gives, so the encoder knows
 /// it, too. Rows as in WideNode. Eight children, 80 bytes:
 ///    0  planes, 8 bytes a row
-///   48  origin, then one exponent of two per axis
+///   48  origin, then per axis the exponent of two plus 127
 ///   63  which children are nodes, one bit each
-///   64  number of the first child node; place of the first primitive of the first leaf
-///   72  per child: which of the nodes it is, or the distance of its first primitive; 255: no child
+///   64  references of the first child that is a node and of the first that is a leaf
+///   72  per child: distance in words from that; 255: no child
 struct alignas(16) QuantizedNode8 {
   std::uint8_t planes[6][8];
   float origin[3];
-  std::int8_t exponent[3];
+  std::uint8_t exponent[3];
   std::uint8_t inner;
-  std::uint32_t first_node, first_primitive;
+  WideReference first_node, first_leaf;
   std::uint8_t place[8];
 };
 static_assert(sizeof(QuantizedNode8) == 80);
@@ -31,13 +31,13 @@ static_assert(sizeof(QuantizedNode8) == 80);
 struct alignas(64) QuantizedNode16 {
   std::uint8_t planes[6][16];
   float origin[3];
-  std::int8_t exponent[3];
+  std::uint8_t exponent[3];
   std::uint8_t unused;
   WideReference children[16];
 };
 static_assert(sizeof(QuantizedNode16) == 192);
 
-/// In `place`, and the most primitives that may lie before the last leaf of a node of eight.
+/// In `place`, and the most words that may lie before the last leaf of a node of eight.
 inline constexpr std::uint32_t no_child = 255;
 
 /// Set in the name of a leaf's last primitive.

@@ -1,5 +1,5 @@
-// Unpacks nodes of quantized boxes, and leaves that name triangles of the caller's mesh, for the kernels of ../simd.
-// Compiled once per instruction set.
+// Unpacks nodes of quantized boxes, and leaves, packed ones and those that name triangles of the caller's mesh, for the
+// kernels of ../simd. Compiled once per instruction set.
 #if defined(BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H
 #undef BOXWOOD_LAYOUT_COMPRESSED_QUANTIZED_STORE_INL_H
@@ -10,6 +10,7 @@
 #include <bit>
 #include <limits>
 
+#include "layout/compressed/packed_leaf-inl.h"
 #include "layout/compressed/quantized_node.h"
 #include "layout/simd/lanes-inl.h"
 #include "layout/simd/triangles-inl.h"
@@ -19,27 +20,33 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float power_of_two(std::int8_t exponent) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
+HWY_INLINE float step_of(std::uint8_t exponent) { return std::bit_cast<float>(std::uint32_t{exponent} << 23); }
+
+HWY_INLINE const std::byte* place_of(const WideView& view, WideReference reference) {
+  return view.base + std::size_t{reference >> 1} * sizeof(std::uint32_t);
 }
 
-/// Children `begin` on, as many as a register holds.
+/// Children `begin` on, as many as a register holds, and where there are any; elsewhere references mean nothing.
 template <class D>
-HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode16& node, int begin) {
-  return hn::LoadU(hn::RebindToUnsigned<D>(), node.children + begin);
+struct Children {
+  hn::Vec<D> references;
+  hn::Mask<D> some;
+};
+
+template <class D>
+HWY_INLINE Children<D> children_of(D d, const QuantizedNode16& node, int begin) {
+  const auto references = hn::LoadU(d, node.children + begin);
+  return {references, hn::Ne(references, hn::Zero(d))};
 }
 
 template <class D>
-HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> references_of(D, const QuantizedNode8& node, int begin) {
-  const hn::RebindToUnsigned<D> du;
-  const hn::RebindToSigned<D> di;
+HWY_INLINE Children<D> children_of(D d, const QuantizedNode8& node, int begin) {
   const hn::Rebind<std::uint8_t, D> bytes;
-  const auto place = hn::PromoteTo(du, hn::LoadU(bytes, node.place + begin));
-  const auto bit = hn::BitCast(du, hn::Shl(hn::Set(di, 1), hn::Iota(di, begin)));
-  const auto inner = hn::TestBit(hn::Set(du, node.inner), bit);
-  const auto first = hn::IfThenElse(inner, hn::Set(du, node.first_node * 2), hn::Set(du, node.first_primitive * 2 + 1));
-  const auto reference = hn::Add(first, hn::Add(place, place));
-  return hn::IfThenZeroElse(hn::Eq(place, hn::Set(du, no_child)), reference);
+  const auto place = hn::PromoteTo(d, hn::LoadU(bytes, node.place + begin));
+  const auto inner_bits = static_cast<std::uint8_t>(node.inner >> begin);
+  const auto inner = hn::LoadMaskBits(d, &inner_bits);
+  const auto first = hn::IfThenElse(inner, hn::Set(d, node.first_node), hn::Set(d, node.first_leaf));
+  return {hn::Add(first, hn::Add(place, place)), hn::Ne(place, hn::Set(d, no_child))};
 }
 
 /// The names of up to eight triangles, the first again for those missing. Returns how many there are; more than eight
@@ -117,19 +124,18 @@ struct QuantizedStore {
     const hn::RebindToSigned<D> di;
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<std::uint8_t, D> bytes;
-    const Node& packed = reinterpret_cast<const Node*>(view.base)[reference >> 1];
+    const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
     const float infinity = std::numeric_limits<float>::infinity();
     for (int begin = 0; begin < N; begin += lanes_of<D>) {
-      const auto references = references_of(d, packed, begin);
-      hn::Store(references, du, out.children + begin);
+      const auto children = children_of(du, packed, begin);
+      hn::Store(hn::IfThenElseZero(children.some, children.references), du, out.children + begin);
       for (int row = 0; row < 6; ++row) {
         const auto q = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(bytes, packed.planes[row] + begin)));
         // Exact product, one rounding: the same fused or not.
-        auto plane =
-            hn::MulAdd(q, hn::Set(d, power_of_two(packed.exponent[row / 2])), hn::Set(d, packed.origin[row / 2]));
+        auto plane = hn::MulAdd(q, hn::Set(d, step_of(packed.exponent[row / 2])), hn::Set(d, packed.origin[row / 2]));
         if (row < 2) {  // no ray meets a box that is inverted on one axis
-          const auto none = hn::RebindMask(d, hn::Eq(references, hn::Zero(du)));
-          plane = hn::IfThenElse(none, hn::Set(d, row == 0 ? infinity : -infinity), plane);
+          const auto none = hn::Set(d, row == 0 ? infinity : -infinity);
+          plane = hn::IfThenElse(hn::RebindMask(d, children.some), plane, none);
         }
         hn::Store(plane, d, out.planes[row] + begin);
       }
@@ -138,24 +144,29 @@ struct QuantizedStore {
   }
 
   static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
-    const Node& packed = reinterpret_cast<const Node*>(view.base)[reference >> 1];
-    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), power_of_two(packed.exponent[row / 2]),
+    const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
+    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), step_of(packed.exponent[row / 2]),
                           packed.origin[row / 2]);
   }
 
   static HWY_INLINE const LeafBlock<8>& block(const WideView& view, WideReference reference, std::size_t number,
                                               BlockBuffer& out) {
-    const int count = load_names(view.primitives + (reference >> 1) + number * 8, out.primitives);
+    const auto* words = reinterpret_cast<const std::uint32_t*>(place_of(view, reference));
+    if (HWY_LIKELY((words[0] & packed_leaf) != 0)) {
+      for (; number > 0; --number) words += PackedLeafHead(words[0]).words();
+      unpack_leaf(words, out);
+      return out;
+    }
+    const int count = load_names(words + number * 8, out.primitives);
     gather_vertices(view, count, out);
     out.primitives[0] |= count > 8 ? more_blocks : 0;
     return out;
   }
 
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
-    const std::byte* node = view.base + std::size_t{reference >> 1} * sizeof(Node);
-    const auto* names = reinterpret_cast<const std::byte*>(view.primitives + (reference >> 1));
-    const std::byte* place = is_leaf(reference) ? names : node;
-    for (std::size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(place + line);
+    const std::byte* place = place_of(view, reference);
+    // Leaves of 60 to 130 bytes begin anywhere in a line.
+    for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(place + 64 * line);
   }
   static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) { prefetch(view, reference); }
 };

@@ -1,4 +1,5 @@
-// Compressed trees in files. Their leaves only name triangles, so the mesh goes with them: names, positions, triangles.
+// Compressed trees in files. Some of their leaves only name triangles, so the mesh goes with them:
+// positions, triangles.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -13,24 +14,20 @@
 namespace boxwood {
 namespace {
 
-struct NamesAndMesh {
-  std::span<const std::uint32_t> names;
+struct SavedMesh {
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
 };
 
-/// Throws Error when the leaves are not as long as the facts say.
-NamesAndMesh split_leaves(const SavedLevel& level) {
+/// Throws Error when it is not as long as the facts say.
+SavedMesh mesh_of(const SavedLevel& level) {
   const std::size_t size = level.leaves.size();
   const std::uint64_t vertices = level.facts.vertices, triangles = level.facts.primitives;
-  const bool fits = vertices <= size / sizeof(Vec3) && triangles <= size / sizeof(Triangle) &&
-                    vertices * sizeof(Vec3) + triangles * sizeof(Triangle) <= size;
-  const std::size_t begin_of_mesh = fits ? size - vertices * sizeof(Vec3) - triangles * sizeof(Triangle) : 0;
-  if (begin_of_mesh < (1 + names_at_once) * sizeof(std::uint32_t)) throw Error("its mesh ends within a triangle");
-  const auto mesh = level.leaves.subspan(begin_of_mesh);
-  return {elements_of<std::uint32_t>(level.leaves.first(begin_of_mesh), "names of triangles"),
-          elements_of<Vec3>(mesh.first(vertices * sizeof(Vec3)), "vertices"),
-          elements_of<Triangle>(mesh.subspan(vertices * sizeof(Vec3)), "triangles")};
+  if (vertices > size / sizeof(Vec3) || vertices * sizeof(Vec3) + triangles * sizeof(Triangle) != size) {
+    throw Error("its mesh ends within a triangle");
+  }
+  return {elements_of<Vec3>(level.leaves.first(vertices * sizeof(Vec3)), "vertices"),
+          elements_of<Triangle>(level.leaves.subspan(vertices * sizeof(Vec3)), "triangles")};
 }
 
 /// A compressed tree in memory that someone else keeps.
@@ -39,50 +36,41 @@ struct KeptQuantized {
   WideView view;
   WideShape shape;
 
-  std::size_t bytes() const { return level.nodes.size() + split_leaves(level).names.size_bytes(); }
+  std::size_t bytes() const { return level.nodes.size(); }
   std::vector<LayoutFact> facts() const { return shape.facts(bytes()); }
   void save(SavedLevel& out) const { out = level; }
 };
 
-/// What lies where; each node and each name may belong to one thing only.
+/// What lies where; each word may belong to one thing only.
 template <class Node, int N>
 class QuantizedCheck {
  public:
   explicit QuantizedCheck(const SavedLevel& level)
-      : facts_(level.facts), nodes_(elements_of<Node>(level.nodes, "nodes")), leaves_(split_leaves(level)) {}
+      : facts_(level.facts), words_(elements_of<std::uint32_t>(level.nodes, "words")), mesh_(mesh_of(level)) {}
 
   std::string run() {
-    if (nodes_.size() < 2) return "it has no root";
-    for (const Triangle& triangle : leaves_.triangles) {
+    for (const Triangle& triangle : mesh_.triangles) {
       for (const std::uint32_t vertex : triangle) {
-        if (vertex >= leaves_.positions.size()) return "a triangle of its mesh names a vertex that it does not have";
+        if (vertex >= mesh_.positions.size()) return "a triangle of its mesh names a vertex that it does not have";
       }
     }
-    node_taken_.resize(nodes_.size());
-    name_taken_.resize(leaves_.names.size());
-    const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root, facts_.stack, *this);
+    taken_.resize(words_.size());
+    const std::optional<WideReference> bad = find_bad_reference<N>(quantized_root(sizeof(Node)), facts_.stack, *this);
     if (!bad) return {};
     return fmt::format("{} {} is none that any walk could use", is_leaf(*bad) ? "leaf" : "node", *bad >> 1);
   }
 
   const Node* take_node(WideReference reference) {
-    const std::uint32_t number = reference >> 1;
-    if (number == 0 || number >= nodes_.size() || node_taken_[number]) return nullptr;
-    node_taken_[number] = true;
-    return &nodes_[number];
+    const std::size_t place = reference >> 1;
+    const bool aligned = place * sizeof(std::uint32_t) % alignof(Node) == 0;
+    if (place == 0 || !aligned || !take_words(place, sizeof(Node) / sizeof(std::uint32_t))) return nullptr;
+    return reinterpret_cast<const Node*>(&words_[place]);
   }
 
   bool take_leaf(WideReference reference) {
-    std::size_t place = reference >> 1;
-    if (place == 0) return false;
-    for (bool more = true; more; ++place) {
-      if (place + names_at_once >= leaves_.names.size() || name_taken_[place]) return false;
-      name_taken_[place] = true;
-      const std::uint32_t name = leaves_.names[place];
-      if ((name & ~last_of_leaf) >= leaves_.triangles.size()) return false;
-      more = (name & last_of_leaf) == 0;
-    }
-    return true;
+    const std::size_t place = reference >> 1;
+    if (place == 0 || place >= words_.size()) return false;
+    return (words_[place] & packed_leaf) != 0 ? take_packed(place) : take_names(place);
   }
 
   /// As the kernels find it, in the same arithmetic; 0 where there is none.
@@ -97,7 +85,7 @@ class QuantizedCheck {
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       grid.origin[axis] = node.origin[axis];
-      grid.exponent[axis] = node.exponent[axis];
+      grid.exponent[axis] = static_cast<std::int8_t>(node.exponent[axis] - exponent_bias);
       out.lower[axis] = grid.at(axis, node.planes[2 * axis][lane]);
       out.upper[axis] = grid.at(axis, node.planes[2 * axis + 1][lane]);
     }
@@ -106,16 +94,60 @@ class QuantizedCheck {
   static bool is_unused(const Node& node, int lane) { return child(node, lane) == wide_nothing; }
 
  private:
+  /// Takes `size` words, behind which there are enough for kernels to read.
+  bool take_words(std::size_t place, std::size_t size) {
+    if (place + size + words_at_once > words_.size()) return false;
+    for (std::size_t i = place; i < place + size; ++i) {
+      if (taken_[i]) return false;
+      taken_[i] = true;
+    }
+    return true;
+  }
+
+  bool take_names(std::size_t place) {
+    for (bool more = true; more; ++place) {
+      if (!take_words(place, 1)) return false;
+      const std::uint32_t name = words_[place];
+      if ((name & ~last_of_leaf) >= mesh_.triangles.size()) return false;
+      more = (name & last_of_leaf) == 0;
+    }
+    return true;
+  }
+
+  bool take_packed(std::size_t place) {
+    for (bool more = true; more;) {
+      if (place >= words_.size()) return false;
+      const PackedLeafHead head(words_[place]);
+      if (!take_words(place, head.words()) || !is_sound_packed(&words_[place])) return false;
+      more = (words_[place] & packed_more) != 0;
+      place += head.words();
+    }
+    return true;
+  }
+
+  bool is_sound_packed(const std::uint32_t* words) const {
+    const PackedLeafHead head(words[0]);
+    if ((words[0] & packed_leaf) == 0 || std::ranges::max(head.bits) > 32) return false;
+    PackedBits indices(words, PackedLeafHead::begin_of_indices), numbers(words, head.begin_of_numbers());
+    for (std::uint32_t i = 0; i < 3 * most_packed_triangles; ++i) {
+      if (indices.take(4) >= head.corners) return false;
+    }
+    for (std::uint32_t i = 0; i < head.triangles; ++i) {
+      if (std::uint64_t{words[1]} + numbers.take(head.bits[3]) >= mesh_.triangles.size()) return false;
+    }
+    return true;
+  }
+
   static WideReference child_of_eight(const QuantizedNode8& node, int lane) {
     if (node.place[lane] == no_child) return wide_nothing;
     const bool inner = (node.inner >> lane & 1) != 0;
-    return (inner ? node.first_node * 2 : node.first_primitive * 2 + 1) + std::uint32_t{node.place[lane]} * 2;
+    return (inner ? node.first_node : node.first_leaf) + std::uint32_t{node.place[lane]} * 2;
   }
 
   const SavedFacts& facts_;
-  std::span<const Node> nodes_;
-  NamesAndMesh leaves_;
-  std::vector<bool> node_taken_, name_taken_;
+  std::span<const std::uint32_t> words_;
+  SavedMesh mesh_;
+  std::vector<bool> taken_;
 };
 
 /// Calls use.template operator()<Node, N>() for the nodes that the level has.
@@ -137,14 +169,14 @@ std::shared_ptr<const Layout> restore_quantized(const SavedLevel& level, const T
   const SavedFacts& facts = level.facts;
   if (trace != TraceOptions{}) throw Error("it is to be walked in a way that its nodes are not made for");
   if (facts.stack > wide_stack_limit) throw Error("it is deeper than any walk can go");
-  const NamesAndMesh leaves = split_leaves(level);
-  WideView view = quantized_view(level.nodes.data(), leaves.names.data(), leaves.positions, leaves.triangles);
-  view.reach = facts.reach;
-  view.stack = facts.stack;
-  view.out_of_cache = facts.out_of_cache != 0;
+  const SavedMesh mesh = mesh_of(level);
   return with_nodes(facts, [&]<class Node, int N>() -> std::shared_ptr<const Layout> {
-    if (elements_of<Node>(level.nodes, "nodes").size() < 2) throw Error("it has no root");
-    const WideShape shape{facts.nodes, level.nodes.size(), N, facts.inner_children, facts.triangles};
+    if (level.nodes.size() < 2 * sizeof(Node)) throw Error("it has no root");
+    WideView view = quantized_view(level.nodes.data(), sizeof(Node), mesh.positions, mesh.triangles);
+    view.reach = facts.reach;
+    view.stack = facts.stack;
+    view.out_of_cache = facts.out_of_cache != 0;
+    const WideShape shape{facts.nodes, facts.nodes * sizeof(Node), N, facts.inner_children, facts.triangles};
     return std::make_shared<SimdLayout<KeptQuantized>>(KeptQuantized{level, view, shape}, compressed_kernels<N>());
   });
 }
@@ -165,13 +197,13 @@ void QuantizedArena::save(SavedLevel& out) const {
   out.facts.nodes = shape.nodes;
   out.facts.inner_children = shape.children;
   out.facts.triangles = shape.triangles;
-  out.nodes = {nodes.data(), nodes.bytes()};
-  const auto leaves = std::make_shared<std::vector<std::byte>>();
-  for (const auto part : {std::as_bytes(std::span(primitives)), std::as_bytes(positions), std::as_bytes(triangles)}) {
-    leaves->insert(leaves->end(), part.begin(), part.end());
+  out.nodes = {memory.data(), memory.bytes()};
+  const auto mesh = std::make_shared<std::vector<std::byte>>();
+  for (const auto part : {std::as_bytes(positions), std::as_bytes(triangles)}) {
+    mesh->insert(mesh->end(), part.begin(), part.end());
   }
-  out.leaves = *leaves;
-  out.owner = leaves;
+  out.leaves = *mesh;
+  out.owner = mesh;
 }
 
 SavedKindEntry saved_quantized() {

@@ -22,8 +22,7 @@ struct WideView {
   std::uint32_t stack = 0;    ///< most entries a traversal's stack can hold
   bool out_of_cache = false;  ///< too large for a core's own caches, so that prefetches pay
 
-  // Where leaves only name their triangles: the names, and the caller's mesh.
-  const std::uint32_t* primitives = nullptr;
+  // Where leaves only name their triangles: the caller's mesh.
   const Vec3* positions = nullptr;
   const Triangle* triangles = nullptr;
 };
