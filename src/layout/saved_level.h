@@ -17,8 +17,8 @@ class Layout;
 struct TriangleLeaves;
 struct InstanceLeaves;
 
-/// How a level is encoded; the number stands in files.
-enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 4 };
+/// How a level is encoded; the number stands in files. 4 was `quantized` when all its leaves named triangles.
+enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 5 };
 
 /// What kernels must know of a level besides its arrays. Stands in files as it is, 128 bytes; members that a kind of
 /// level does not use are zero.

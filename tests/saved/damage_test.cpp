@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "layout/compressed/packed_leaf.h"
 #include "layout/saved_level.h"
 #include "math/random.h"
 #include "saved/files.h"
@@ -170,6 +171,33 @@ TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
     rewrite(folder.file("good"), folder.file("bad"), 2, with_word(facts, offsetof(SavedFacts, stack), 1), 1);
     EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
   }
+}
+
+std::uint32_t word_at(const std::string& bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
+  const Folder folder;
+  save(build(sphere(12), "median(leaf=8) > collapse(16) > compressed(16)"), folder.file("good"));
+  const std::string nodes = section_bytes(folder.file("good"), 3);
+  std::uint32_t first = 96;  // the root; children stand at byte 112 of a node
+  while (first % 2 == 0) first = word_at(nodes, first / 2 * 4 + 112);
+  const std::size_t leaf = first / 2 * 4;
+  const std::uint32_t head = word_at(nodes, leaf);
+  ASSERT_NE(head & packed_leaf, 0u);
+  ASSERT_LT(PackedLeafHead(head).corners, 16u);
+  const auto refused = [&](std::size_t at, std::uint32_t word) {
+    rewrite(folder.file("good"), folder.file("bad"), 3, with_word(nodes, at, word), 1);
+    return !refusal(folder.file("bad")).empty();
+  };
+  EXPECT_FALSE(refused(leaf, head));
+  EXPECT_TRUE(refused(leaf, head | 63u << 7)) << "63 bits per difference";
+  EXPECT_TRUE(refused(leaf, head | packed_more)) << "more parts than there are";
+  EXPECT_TRUE(refused(leaf + 4, 0x3fffffff)) << "a triangle that the mesh does not have";
+  EXPECT_TRUE(refused(leaf + 8, word_at(nodes, leaf + 8) | 15u)) << "a corner that the leaf does not have";
 }
 
 TEST(DamagedStructure, SectionsOfAnotherSizeAreRefused) {
