@@ -37,7 +37,7 @@ Expected expected_of(const Tree& tree, std::uint32_t n) {
 
 Tree wide_tree(const Scene& scene) {
   const MeshGeometry geometry(scene.meshes[0]);
-  return Pipeline(Recipe::parse("binned > collapse(4) > binary")).tree({geometry.references(), &geometry, nullptr});
+  return Pipeline(Recipe::parse("binned > collapse(4) > wide(4)")).tree({geometry.references(), &geometry, nullptr});
 }
 
 /// Nodes by what is in them, wherever they lie.
