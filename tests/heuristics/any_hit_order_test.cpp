@@ -95,16 +95,16 @@ TEST(AnyHitOrder, FixedOrder_IsLeftAlone) {
 }
 
 TEST(AnyHitOrder, WallInFrontOfMuch_IsLookedAtFirst) {
-  // Two thousand small triangles, and a wall that all rays meet as well, from before or from behind.
+  // Two thousand small triangles, and a wall below them that all rays meet as well, from either side.
   Scene scene = soup(2000, 0.05f, 4);
   Mesh& mesh = scene.meshes[0];
   const auto corner = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vec3 at : {Vec3{-4, -4, 1.5f}, Vec3{6, -4, 1.5f}, Vec3{0, 9, 1.5f}}) mesh.positions.push_back(at);
+  for (const Vec3 at : {Vec3{-4, -4, -1.5f}, Vec3{6, -4, -1.5f}, Vec3{0, 1.1f, -1.5f}}) mesh.positions.push_back(at);
   mesh.triangles.push_back({corner, corner + 1, corner + 2});
   std::vector<Ray> rays;
   for (int i = 0; i < 64; ++i) {
-    const float x = 0.1f + 0.1f * static_cast<float>(i % 8), y = 0.1f + 0.1f * static_cast<float>(i / 8);
-    rays.push_back({{x, y, -1}, 0, {0, 0, 1}, 10});
+    const float x = 0.1f * static_cast<float>(i % 8), y = -0.9f + 0.1f * static_cast<float>(i / 8);
+    rays.push_back({{x, y, -2}, 0, {0, 0, 1}, 10});
     rays.push_back({{x, y, 3}, 0, {0, 0, -1}, 10});
   }
   for (const std::string layout : {"wide(4)", "wide(8)", "compressed(8)"}) {
