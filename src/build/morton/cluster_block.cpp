@@ -62,7 +62,8 @@ void BlockBuilder::push_references(std::size_t begin, std::size_t end) {
     const float area = half_area(box);
     Box4 grown = bounds;
     grown.grow(box);
-    const float grown_cost = half_area(grown) * static_cast<float>(run.references / options_.leaf_block + 1);
+    const std::uint32_t blocks = run.references / options_.leaf_block + 1;
+    const float grown_cost = half_area(grown) * static_cast<float>(blocks);
     if (i > begin && run.references < options_.run && grown_cost <= options_.slack * (run.cost + area)) {
       bounds = grown;
       run.cost = grown_cost;
