@@ -73,7 +73,7 @@ const std::string& text_here(const Preset& preset) {
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
       {"fast", "ploc(radius=4, block=4, run=4, slack=1.5, group=8, width=8) > wide(8)", "quick to build"},
-      {"default", "ploc(block=4, run=4) > reinsert > optimal-collapse(8) > wide(8)",
+      {"default", "ploc(block=4, run=4, slack=2.5) > reinsert > optimal-collapse(8) > wide(8)",
        "a good tree, small in memory, quick to build"},
       {"best", "spatial(alpha=0.001, bins=8, block=4) > reinsert > optimal-collapse(8) > wide(8)",
        "fewest tests per ray; slow to build",

@@ -15,7 +15,7 @@ namespace boxwood {
 namespace {
 
 constexpr std::size_t cache_line = 64;
-constexpr std::size_t small_tree_bytes = std::size_t{4} << 20;
+constexpr std::size_t small_tree_bytes = std::size_t{1} << 20;
 
 constexpr std::size_t round_up(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
 
