@@ -38,7 +38,7 @@ Tree Pipeline::tree(BuildInput input) const {
 
 Tree Pipeline::mesh_tree(BuildInput input) const {
   Tree out = tree(std::move(input));
-  if (layout_->stage->arrange) layout_->stage->arrange(layout_->options, trace_, out);
+  if (layout_ && layout_->stage->arrange) layout_->stage->arrange(layout_->options, trace_, out);
   return out;
 }
 
