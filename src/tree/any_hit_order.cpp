@@ -37,6 +37,7 @@ Prospect prospect_of(const Tree::Node& node, const std::vector<Child>& children)
 void order_for_any_hits(Tree& tree) {
   std::vector<Prospect> prospects(tree.nodes.size());
   std::vector<Child> children;
+  tree.cells = {};                                     // of the nodes as they were
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children come after their parents
     Tree::Node& node = tree.nodes[n];
     if (node.is_leaf()) continue;

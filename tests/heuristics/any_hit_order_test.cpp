@@ -83,6 +83,16 @@ TEST(AnyHitOrder, Tree_StaysValidWithTheSameNodes) {
   EXPECT_EQ(validate(tree, boxes), "");
 }
 
+TEST(AnyHitOrder, OctreeInWideNodes_StaysValid) {
+  const Scene scene = soup(300, 0.3f, 5);
+  const MeshGeometry geometry(scene.meshes[0]);
+  std::vector<Box> boxes;
+  for (const Reference& reference : geometry.references()) boxes.push_back(reference.box());
+  for (const std::string layout : {"wide(8)", "compressed(8)"}) {
+    EXPECT_EQ(validate(tree_of(scene.meshes[0], Recipe::parse("octree > " + layout)), boxes), "") << layout;
+  }
+}
+
 TEST(AnyHitOrder, FixedOrder_IsLeftAlone) {
   Tree tree = wide_tree(soup(300, 0.3f, 3));
   for (Tree::Node& node : tree.nodes) node.fixed_order = node.is_leaf() ? 0 : 1;
