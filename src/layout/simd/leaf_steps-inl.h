@@ -93,13 +93,10 @@ struct BlockPair {
   }
 };
 
-/// What one pair's test found, kept until the whole pass is tested: hits come as they like, and a branch on each would
-/// be mispredicted as often.
-struct PairHits {
-  alignas(64) float t[16], v[16], w[16], determinant[16];
-};
+/// What the tests of pairs found, kept until the whole pass is tested: hits come as they like, and a branch on each
+/// would be mispredicted as often.
 struct PassHits {
-  PairHits pairs[most_in_flight / 2];
+  StoredHits<BlockPair::D> pairs[most_in_flight / 2];
   std::uint32_t found[most_in_flight + 1];  // ray in the list
   std::uint32_t lanes[most_in_flight + 1];  // one bit each, of its half of the pair
   std::uint32_t size = 0;
@@ -131,28 +128,22 @@ struct PassBlocks {
 template <class Store>
 struct LeafSteps<Store, 8> {
   static HWY_INLINE void test(const BlockPair& pair, const Slot& a, const Slot& b, std::uint32_t ray, PassHits& out) {
-    const BlockPair::D d;
     const TriangleHits<BlockPair::D> hits = pair.hit(a, b);
-    PairHits& kept = out.pairs[ray / 2];
-    hn::Store(hits.t, d, kept.t);
-    hn::Store(hits.v, d, kept.v);
-    hn::Store(hits.w, d, kept.w);
-    hn::Store(hits.determinant, d, kept.determinant);
-    const std::uint32_t bits = bits_of(d, hits.hit);
+    out.pairs[ray / 2].store(hits);
+    const std::uint32_t bits = bits_of(BlockPair::D(), hits.hit);
     out.note(ray, bits & 0xff);
     out.note(ray + 1, bits >> 8);
   }
 
   /// The best of what was found for one ray.
-  static HWY_INLINE void keep_best(const LeafBlock<8>& block, const PairHits& pair, std::uint32_t half,
+  static HWY_INLINE void keep_best(const LeafBlock<8>& block, const StoredHits<BlockPair::D>& pair, std::uint32_t half,
                                    std::uint32_t lanes, Slot& slot) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const std::uint32_t at = half + lane;
       const std::uint32_t primitive = block.primitives[lane] & ~more_blocks;
       if (!wins(pair.t[at], 0, primitive, slot.best)) continue;
-      const float determinant = pair.determinant[at];
-      slot.best = {pair.t[at], pair.v[at] / determinant, pair.w[at] / determinant, primitive, 0};
+      slot.best = pair.hit(static_cast<int>(at), primitive, 0);
       slot.t_limit = pair.t[at] + 0.0f;
     }
   }

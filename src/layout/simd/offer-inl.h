@@ -28,15 +28,12 @@ HWY_INLINE void offer_block(const LeafBlock<L>& block, const TriangleRay& ray, c
     const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, range.t_near)), hn::Le(hits.t, hn::Set(d, range.t_far)));
     std::uint32_t bits = bits_of(d, hn::And(hits.hit, in_range));
     if (bits == 0) continue;
-    alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
-    hn::Store(hits.t, d, t);
-    hn::Store(hits.v, d, v);
-    hn::Store(hits.w, d, w);
-    hn::Store(hits.determinant, d, determinant);
+    StoredHits<D> stored;
+    stored.store(hits);
     for (; bits != 0; bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
       const std::uint32_t primitive = block.primitives[begin + lane] & ~more_blocks;
-      sink.offer({t[lane], v[lane] / determinant[lane], w[lane] / determinant[lane], primitive, instance});
+      sink.offer(stored.hit(lane, primitive, instance));
     }
   }
 }

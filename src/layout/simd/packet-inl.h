@@ -189,23 +189,20 @@ template <class Store>
 HWY_INLINE bool closest_of_few(const WideView& view, WideReference leaf, std::uint64_t rays, RayGroup& group,
                                GroupHits& best) {
   using D = Floats<Store::triangles>;
-  const D d;
   bool nearer = false;
   for_each_ray<Store>(view, leaf, rays, group, [&](int ray, int begin, const auto& block, const auto& hits) HWY_ATTR {
-    alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
-    hn::Store(hits.t, d, t);
-    hn::Store(hits.v, d, v);
-    hn::Store(hits.w, d, w);
-    hn::Store(hits.determinant, d, determinant);
+    StoredHits<D> stored;
+    stored.store(hits);
     std::int32_t& primitive = (&best.primitives[0][0])[ray];
-    for (std::uint32_t bits = bits_of(d, hits.hit); bits != 0; bits &= bits - 1) {
+    for (std::uint32_t bits = bits_of(D(), hits.hit); bits != 0; bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
       const auto number = static_cast<std::int32_t>(block.primitives[begin + lane] & ~more_blocks);
-      if (t[lane] > best.t.of(ray) || (t[lane] == best.t.of(ray) && number >= primitive)) continue;
-      best.t.of(ray) = group.t_limit.of(ray) = t[lane];
-      best.v.of(ray) = v[lane];
-      best.w.of(ray) = w[lane];
-      best.determinant.of(ray) = determinant[lane];
+      const float t = stored.t[lane];
+      if (t > best.t.of(ray) || (t == best.t.of(ray) && number >= primitive)) continue;
+      best.t.of(ray) = group.t_limit.of(ray) = t;
+      best.v.of(ray) = stored.v[lane];
+      best.w.of(ray) = stored.w[lane];
+      best.determinant.of(ray) = stored.determinant[lane];
       primitive = number;
       nearer = true;
     }

@@ -74,16 +74,13 @@ HWY_INLINE bool closest_in_block(const LeafBlock<L>& block, const TriangleRay& r
     const auto in_range = hn::And(hn::Ge(hits.t, hn::Set(d, t_near)), hn::Le(hits.t, hn::Set(d, t_limit)));
     std::uint32_t bits = bits_of(d, hn::And(hits.hit, in_range));
     if (HWY_LIKELY(bits == 0)) continue;
-    alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
-    hn::Store(hits.t, d, t);
-    hn::Store(hits.v, d, v);
-    hn::Store(hits.w, d, w);
-    hn::Store(hits.determinant, d, determinant);
+    StoredHits<D> stored;
+    stored.store(hits);
     for (; bits != 0; bits &= bits - 1) {
       const int lane = std::countr_zero(bits);
       const std::uint32_t primitive = block.primitives[begin + lane] & ~more_blocks;
-      if (!wins(t[lane], 0, primitive, best)) continue;
-      best = {t[lane], v[lane] / determinant[lane], w[lane] / determinant[lane], primitive, 0};
+      if (!wins(stored.t[lane], 0, primitive, best)) continue;
+      best = stored.hit(lane, primitive, 0);
       replaced = true;
     }
   }

@@ -54,6 +54,23 @@ struct TriangleHits {
   hn::Vec<D> t, v, w, determinant;
 };
 
+/// The numbers of TriangleHits in memory, a triangle per lane. Hits come as they like, and are taken lane by lane.
+template <class D>
+struct StoredHits {
+  alignas(64) float t[lanes_of<D>], v[lanes_of<D>], w[lanes_of<D>], determinant[lanes_of<D>];
+
+  HWY_INLINE void store(const TriangleHits<D>& hits) {
+    const D d;
+    hn::Store(hits.t, d, t);
+    hn::Store(hits.v, d, v);
+    hn::Store(hits.w, d, w);
+    hn::Store(hits.determinant, d, determinant);
+  }
+  HWY_INLINE Hit hit(int lane, std::uint32_t primitive, std::uint32_t instance) const {
+    return {t[lane], v[lane] / determinant[lane], w[lane] / determinant[lane], primitive, instance};
+  }
+};
+
 template <class D, class V>
 HWY_INLINE V difference_of_products(D d, V a, V b, V c, V e) {
   const V ce = hn::Mul(c, e);

@@ -9,14 +9,14 @@
 #include <limits>
 #include <vector>
 
+#include "build/float4.h"
+
 namespace boxwood {
 namespace {
 
 constexpr std::uint32_t narrow = 8;
 /// Subtrees that tasks solve, about.
 constexpr std::size_t jobs = 256;
-
-using Float4 [[gnu::vector_size(16)]] = float;
 
 /// pairs[i]: least cost of two children as i + 2 nodes, where first[j] and second[j] are the costs of either as up to
 /// j + 1; the last of pairs is arbitrary.
@@ -35,7 +35,7 @@ std::array<float, Width> least_of_pairs(const float* first, const float* second)
       Float4 moved;
       std::memcpy(&moved, &padded[most - j + 4 * r], sizeof(moved));
       const Float4 both = first[j] + moved;
-      least[r] = both < least[r] ? both : least[r];
+      least[r] = min4(both, least[r]);
     }
   }
   std::array<float, Width> pairs;
