@@ -194,7 +194,11 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
     return !refusal(folder.file("bad")).empty();
   };
   EXPECT_FALSE(refused(leaf, head));
-  EXPECT_TRUE(refused(leaf, head | 63u << 7)) << "63 bits per difference";
+  EXPECT_TRUE(refused(leaf, head | 63u << 7)) << "longer than it is";
+  const PackedLeafHead good(head);
+  const std::uint32_t left = good.bits[0] + good.bits[1] + good.bits[2] - 33;
+  const std::uint32_t rest = head & ~(0x3ffffu << 7);
+  EXPECT_TRUE(refused(leaf, rest | 33u << 7 | left / 2 << 13 | (left - left / 2) << 19)) << "33 bits per difference";
   EXPECT_TRUE(refused(leaf, head | packed_more)) << "more parts than there are";
   EXPECT_TRUE(refused(leaf + 4, 0x3fffffff)) << "a triangle that the mesh does not have";
   EXPECT_TRUE(refused(leaf + 8, word_at(nodes, leaf + 8) | 15u)) << "a corner that the leaf does not have";
