@@ -42,6 +42,18 @@ struct NamedRun {
   Contestant run;
 };
 
+/// Keeps about `most` rays: whole calls, so that they stay as coherent as they are, from all over the set.
+void keep_spread_calls(std::vector<Ray>& rays, std::size_t most) {
+  const std::size_t calls = rays.size() / rays_at_once, kept = std::max<std::size_t>(most / rays_at_once, 1);
+  if (calls > kept) {
+    for (std::size_t i = 0; i < kept; ++i) {
+      std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(i * calls / kept * rays_at_once), rays_at_once,
+                  rays.begin() + static_cast<std::ptrdiff_t>(i * rays_at_once));
+    }
+    rays.resize(kept * rays_at_once);
+  }
+}
+
 /// Seconds that `part(begin, end)` takes for all of `count` rays.
 template <class Part>
 double time_in_parts(std::size_t count, unsigned threads, const Part& part) {
@@ -216,7 +228,7 @@ class SceneBench {
     view.random_rays = static_cast<std::uint32_t>(settings_.most_rays);
     const std::vector<std::string> kinds = {"primary", "diffuse", "random", "shadow", "ao"};
     std::vector<RaySet> sets = make_ray_sets(scene_, tracers_.ours.front().second, view, kinds);
-    for (RaySet& set : sets) set.rays.resize(std::min(set.rays.size(), settings_.most_rays));
+    for (RaySet& set : sets) keep_spread_calls(set.rays, settings_.most_rays);
     return sets;
   }
 
