@@ -46,7 +46,9 @@ struct RayGroup {
 
   float least_origin[3], largest_origin[3];
   float least_inverse[3], largest_inverse[3];
+  float least_shear[2], largest_shear[2];
   float slack[3];  // error bound of plane distances: more than any ray's own
+  float error;     // of the triangle test, where rays see corners: more than any ray's own
   float least_t_near;
 };
 
@@ -151,8 +153,12 @@ HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, RayGroup& 
   for (int part = 0; part < 8; ++part) {
     if (!prepare_eight(rays.data() + part * 8, reach, part, group)) return false;
   }
-  if (largest_of(group.shear_x) - least_of(group.shear_x) > widest_spread) return false;
-  if (largest_of(group.shear_y) - least_of(group.shear_y) > widest_spread) return false;
+  for (int side = 0; side < 2; ++side) {
+    const GroupFloats& shear = side == 0 ? group.shear_x : group.shear_y;
+    group.least_shear[side] = least_of(shear);
+    group.largest_shear[side] = largest_of(shear);
+    if (group.largest_shear[side] - group.least_shear[side] > widest_spread) return false;
+  }
   float magnitude = 0x1p-26f;
   for (int axis = 0; axis < 3; ++axis) {
     group.least_origin[axis] = least_of(group.origin[axis]);
@@ -167,6 +173,7 @@ HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, RayGroup& 
     const float inverse = std::max(std::fabs(group.least_inverse[axis]), std::fabs(group.largest_inverse[axis]));
     group.slack[axis] = magnitude * 0x1p-18f * inverse;
   }
+  group.error = magnitude * 0x1p-19f;
   group.least_t_near = least_of(group.t_near);
   return true;
 }
