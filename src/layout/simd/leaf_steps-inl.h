@@ -69,7 +69,7 @@ struct BlockPair {
     return hn::Combine(D(), hn::Load(Half(), high), hn::Load(Half(), low));
   }
   static HWY_INLINE hn::Vec<D> both(float low, float high) {
-    return hn::Combine(D(), hn::Set(Half(), high), hn::Set(Half(), low));
+    return hn::IfThenElse(hn::FirstN(D(), 8), hn::Set(D(), low), hn::Set(D(), high));
   }
   HWY_INLINE Vertices<D> vertices(int vertex, const TriangleRay& ray_a, const TriangleRay& ray_b) const {
     const auto coordinate = [&](int axis) {

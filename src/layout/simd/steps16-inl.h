@@ -9,7 +9,7 @@
 
 #include "layout/simd/open_node-inl.h"
 #include "layout/simd/slots-inl.h"
-#include "layout/simd/sort8-inl.h"
+#include "layout/simd/sort-inl.h"
 #include "layout/simd/steps8-inl.h"
 #include "layout/simd/wide_node.h"
 
@@ -71,11 +71,57 @@ struct Steps16 {
     take(slots.references(slot), slot.top, count, slot);
   }
 
+  template <int Most>
+  using Both = hn::FixedTag<std::uint32_t, 2 * Most>;
+
+  /// The first lanes.
+  template <int Most>
+  static HWY_INLINE auto first(hn::Vec<Ints16> v) {
+    const auto eight = hn::LowerHalf(Ints8(), v);
+    if constexpr (Most == 8)
+      return eight;
+    else
+      return hn::LowerHalf(hn::Half<Ints8>(), eight);
+  }
+  template <int Most, class D>
+  static HWY_INLINE hn::Vec<D> sort_each(D d, hn::Vec<D> keys) {
+    if constexpr (Most == 8)
+      return sort8_descending(d, keys);
+    else
+      return sort4_descending(d, keys);
+  }
+  /// Looks lanes up in two registers, those of `b` from 16 on.
+  static HWY_INLINE hn::Vec<Both<8>> of_both(hn::Vec<Words16> a, hn::Vec<Words16> b, hn::Vec<Both<8>> index) {
+    return hn::Vec<Both<8>>{_mm512_permutex2var_epi32(a.raw, index.raw, b.raw)};
+  }
+  static HWY_INLINE hn::Vec<Both<4>> of_both(hn::Vec<Words16> a, hn::Vec<Words16> b, hn::Vec<Both<4>> index) {
+    const __m512i wide = _mm512_permutex2var_epi32(a.raw, _mm512_castsi256_si512(index.raw), b.raw);
+    return hn::Vec<Both<4>>{_mm512_castsi512_si256(wide)};
+  }
+
+  /// Puts the children that two rays met above the tops of their stacks, the nearest last: at most `Most` each, which
+  /// is how many are stored.
+  template <int Most>
+  static HWY_INLINE void push(const Slots& slots, const Node& node_a, const Node& node_b, hn::Vec<Ints16> met_a,
+                              hn::Vec<Ints16> met_b, Slot& a, Slot& b) {
+    const hn::FixedTag<std::int32_t, 2 * Most> both;
+    const hn::Half<decltype(both)> each;
+    const hn::RebindToUnsigned<decltype(each)> words;
+    const auto sorted = sort_each<Most>(both, hn::Combine(both, first<Most>(met_b), first<Most>(met_a)));
+    // Of the children of both nodes, one after the other.
+    const auto second_half = hn::And(hn::Iota(both, 0), hn::Set(both, Most));
+    constexpr int shift = Most == 4 ? 2 : 1;
+    const auto index = hn::Or(hn::And(sorted, hn::Set(both, 15)), hn::ShiftLeft<shift>(second_half));
+    const auto children =
+        of_both(node_a.children(Floats16(), 0), node_b.children(Floats16(), 0), hn::BitCast(Both<Most>(), index));
+    hn::StoreU(hn::LowerHalf(each, sorted), each, slots.keys(a) + a.top);
+    hn::StoreU(hn::UpperHalf(each, sorted), each, slots.keys(b) + b.top);
+    hn::StoreU(hn::LowerHalf(words, children), words, slots.references(a) + a.top);
+    hn::StoreU(hn::UpperHalf(words, children), words, slots.references(b) + b.top);
+  }
+
   /// Two rays: each pushes all children it met, nearest on top, and takes the top. Both may be the same ray.
   static HWY_INLINE void closest_pair(const Slots& slots, const WideView& view, Slot& a, Slot& b, std::uint32_t* next) {
-    const Ints16 d;
-    const Ints8 half;
-    const hn::Half<Words16> half_words;
     const Node node_a(view, a.next), node_b(view, b.next);
     const Met met_a = meet(node_a, a), met_b = meet(node_b, b);
     if (HWY_UNLIKELY(std::max(met_a.count, met_b.count) > 8)) {
@@ -85,17 +131,13 @@ struct Steps16 {
       next[1] = b.next;
       return;
     }
-    const auto sorted =
-        sort8_descending(d, hn::Combine(d, hn::LowerHalf(half, met_b.keys), hn::LowerHalf(half, met_a.keys)));
-    const std::uint32_t top_a = a.top, top_b = b.top;
-    WideReference* references_a = slots.references(a);
-    WideReference* references_b = slots.references(b);
-    hn::StoreU(hn::LowerHalf(half, sorted), half, slots.keys(a) + top_a);
-    hn::StoreU(hn::UpperHalf(half, sorted), half, slots.keys(b) + top_b);
-    hn::StoreU(hn::LowerHalf(half_words, children_of(node_a, sorted)), half_words, references_a + top_a);
-    hn::StoreU(hn::UpperHalf(half_words, children_of(node_b, sorted)), half_words, references_b + top_b);
-    next[0] = take(references_a, top_a, met_a.count, a);
-    next[1] = take(references_b, top_b, met_b.count, b);
+    if (HWY_LIKELY(std::max(met_a.count, met_b.count) <= 4))
+      push<4>(slots, node_a, node_b, met_a.keys, met_b.keys, a, b);
+    else
+      push<8>(slots, node_a, node_b, met_a.keys, met_b.keys, a, b);
+    const std::uint32_t top_b = b.top;  // read before a is changed, which may be the same
+    next[0] = take(slots.references(a), a.top, met_a.count, a);
+    next[1] = take(slots.references(b), top_b, met_b.count, b);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.

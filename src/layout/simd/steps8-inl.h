@@ -8,7 +8,7 @@
 
 #include "layout/simd/open_node-inl.h"
 #include "layout/simd/slots-inl.h"
-#include "layout/simd/sort8-inl.h"
+#include "layout/simd/sort-inl.h"
 #include "layout/simd/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
