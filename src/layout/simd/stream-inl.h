@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -50,10 +51,13 @@ struct StreamMemory {
   }
 };
 
-/// A blocked ray gets a limit before its beginning and so meets nothing more.
+/// A blocked ray gets a limit before its beginning and so meets nothing more. Arithmetic, lest the compiler make a
+/// branch of it that goes as the hits do.
 HWY_INLINE void note(Slot& slot, bool found, std::uint8_t* blocked) {
-  blocked[slot.index] |= found ? 1 : 0;
-  slot.t_limit = found ? -std::numeric_limits<float>::infinity() : slot.t_limit;
+  constexpr auto none = std::bit_cast<std::uint32_t>(-std::numeric_limits<float>::infinity());
+  const std::uint32_t all = 0u - static_cast<std::uint32_t>(found);
+  blocked[slot.index] |= static_cast<std::uint8_t>(found);
+  slot.t_limit = std::bit_cast<float>((std::bit_cast<std::uint32_t>(slot.t_limit) & ~all) | (none & all));
 }
 
 /// The rays of a list against a leaf that all of them enter. The list has room for one more.
@@ -186,7 +190,7 @@ class AnyStream {
     }
     if (view_.out_of_cache) {
       for (std::uint32_t left = level.left; left != 0; left &= left - 1) {
-        Store::prefetch_all(view_, level.children[std::countr_zero(left)]);
+        Store::prefetch(view_, level.children[std::countr_zero(left)]);
       }
     }
     visits_ += size;
