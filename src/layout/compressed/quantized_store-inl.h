@@ -168,7 +168,6 @@ struct QuantizedStore {
     // Leaves of 60 to 130 bytes begin anywhere in a line.
     for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(place + 64 * line);
   }
-  static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) { prefetch(view, reference); }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -84,6 +84,7 @@ class ClosestBatch {
   /// Puts the next ray that the lists can serve into a slot; none when the batch is done.
   HWY_NOINLINE void load(std::uint32_t offset, Lists& lists) {
     const auto skip = [&](const Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
+      __builtin_prefetch(&hits_[index], 1);
       // Keys order by their bits, which negative distances do not do.
       if (HWY_LIKELY(valid && ray.t_near >= 0)) return false;
       hits_[index] = closest_hit<Store>(view_, prepare(rays_[index], view_.reach), CountNothing{});
@@ -132,7 +133,7 @@ class ClosestBatch {
 
   /// Takes the topmost entry that is not behind the limit, a register of them looked at at once.
   HWY_INLINE WideReference pop_step(Slot& slot) {
-    using D = hn::CappedTag<std::int32_t, 16>;
+    using D = hn::CappedTag<std::int32_t, 8>;
     const D d;
     constexpr std::uint32_t lanes = lanes_of<D>;
     const auto limit = hn::Set(d, Steps::key_limit(slot.t_limit));

@@ -114,6 +114,14 @@ HWY_INLINE std::uint32_t load_eight(float reach, RayAt ray, SlotAt slot) {
   return bits_of(d, valid);
 }
 
+/// Fetches some rays of a batch from `begin` on, as far as there are any.
+HWY_INLINE void prefetch_rays(std::span<const Ray> rays, std::size_t begin, std::size_t count) {
+  constexpr std::size_t per_line = 64 / sizeof(Ray);
+  for (std::size_t i = 0; i < count; i += per_line) __builtin_prefetch(&rays[std::min(begin + i, rays.size() - 1)]);
+}
+/// How far ahead of those that are being prepared.
+inline constexpr std::size_t rays_ahead = 32;
+
 /// The rays of a batch in order, ready to be put into slots.
 template <std::uint32_t RowBytes>
 class IncomingRays {
@@ -152,6 +160,7 @@ class IncomingRays {
   HWY_NOINLINE void prepare_more(Skip skip) {
     const std::size_t size = std::min<std::size_t>(8, rays_.size() - prepared_);
     begin_ = static_cast<std::uint32_t>(prepared_);
+    prefetch_rays(rays_, prepared_ + rays_ahead, 8);
     // Missing rays are the last one again.
     const std::uint32_t valid = load_eight<RowBytes>(
         view_.reach, [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[prepared_ + std::min(i, size - 1)]; },

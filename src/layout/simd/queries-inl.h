@@ -121,6 +121,7 @@ struct Batch {
         --pass_over;
         continue;
       }
+      prefetch_rays(rays, next + group_size, group_size);
       if (!prepare_group(rays.subspan(next, group_size), view.reach, group)) continue;
       if (!on_group(group, next)) {
         pass_over = penalty;

@@ -20,13 +20,13 @@ namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
 /// Rays in flight of one call, and the memory for their slots: some live on the caller's stack.
-inline constexpr int most_in_flight = 64;
-inline constexpr std::size_t slot_memory = std::size_t{160} << 10;
+inline constexpr int most_in_flight = 96;
+inline constexpr std::size_t slot_memory = std::size_t{192} << 10;
 
 /// Entries read below the top of a stack or written above it at once.
 inline constexpr std::uint32_t stack_margin = 16;
 /// The bottom of every stack: below it are entries that are never reached.
-inline constexpr std::uint32_t stack_bottom = stack_margin;
+inline constexpr std::uint32_t stack_bottom = 8;
 
 /// What a ray in flight needs, by cache line: what node steps read, what leaf steps read. Its stack follows: keys, then
 /// references. A key is the entry distance as an integer with the lane in its low bits.

@@ -7,6 +7,8 @@
 #define BOXWOOD_LAYOUT_SIMD_STORE_INL_H
 #endif
 
+#include <algorithm>
+
 #include "layout/simd/lanes-inl.h"
 #include "layout/simd/wide_arena.h"
 
@@ -34,20 +36,11 @@ struct PlainStore {
                                               BlockBuffer&) {
     return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
   }
-  /// Of the lines that hold a node's planes, or as many of a block.
+  /// Of the lines of a node, or as many of a block.
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
-    prefetch_lines<N == 16 ? 6 : 4>(view, reference);
-  }
-  /// Of as many lines as a node has.
-  static HWY_INLINE void prefetch_all(const WideView& view, WideReference reference) {
-    prefetch_lines<sizeof(WideNode<N>) / 64>(view, reference);
-  }
-
- private:
-  template <int Lines>
-  static HWY_INLINE void prefetch_lines(const WideView& view, WideReference reference) {
+    constexpr std::size_t lines = std::max(sizeof(WideNode<N>), std::size_t{256}) / 64;
     const std::byte* place = view.base + std::size_t{reference} * 16;
-    for (int line = 0; line < Lines; ++line) __builtin_prefetch(place + 64 * line);
+    for (std::size_t line = 0; line < lines; ++line) __builtin_prefetch(place + 64 * line);
   }
 };
 
