@@ -220,7 +220,7 @@ TEST(MotionPolicyOf, RebuildsHappenOnceRefittingHasCostAsMuch) {
 TEST(MotionPolicyOf, WhereLittleMoved_PartsAreRebuiltAndMakeUpForIt) {
   const Scene scene = test::soup(8000, 0.05f, 1);
   const auto quality_after = [&](Rebuild rebuild, UpdateReport& report) {
-    MovingStructure moving(scene, "default", {rebuild, 1e5, 50});
+    MovingStructure moving(scene, "ploc(block=4) > reinsert > optimal-collapse(8) > wide(8)", {rebuild, 1e5, 50});
     for (int f = 0; f < 3; ++f) {
       moving.move_vertices(0, disturbed(scene, 0.3f));
       const UpdateReport update = moving.update();

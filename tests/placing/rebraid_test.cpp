@@ -33,7 +33,7 @@ Scene crowd(std::uint32_t count, float spread) {
 
 std::vector<Tree> trees_of(const Scene& scene) {
   std::vector<Tree> trees;
-  for (const Mesh& mesh : scene.meshes) trees.push_back(tree_of(mesh, Recipe::parse("default")));
+  for (const Mesh& mesh : scene.meshes) trees.push_back(tree_of(mesh, Recipe::parse("ploc(block=4) > wide(8)")));
   return trees;
 }
 
