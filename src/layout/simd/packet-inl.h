@@ -123,10 +123,6 @@ HWY_INLINE bool visit_leaf(const WideView& view, const RayGroup& group, const Gr
   return changed;
 }
 
-/// What a group may cost, in node steps, before its rays are better off one by one. The steps that 64 rays in flight
-/// take together are some 15 to 25 times as many.
-inline constexpr int group_budget = 640;
-
 /// Walks the tree for a group, nearest children first, and lets `find` have the triangles that a ray may meet. False
 /// when the budget ran out: the rays lie so far apart, for triangles of this size, that they share little, and the walk
 /// is not complete.
@@ -142,7 +138,7 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, Find fin
   float t_limit = largest_of(group.t_limit);
   WideReference current = view.root;
   alignas(64) float entries[N];
-  for (int budget = group_budget; budget > 0; --budget) {
+  for (int budget = Find::budget; budget > 0; --budget) {
     const WideNode<N>& node = Store::node(view, current, buffer);
     std::uint32_t bits = 0;
     for (int begin = 0; begin < N; begin += lanes_of<D>) bits |= hit_children(node, begin, slabs, t_limit, entries);
