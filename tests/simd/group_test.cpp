@@ -77,6 +77,7 @@ TEST_P(GroupsIn, CornersAndEdges_AreHitAsByBruteForce) {
   std::vector<Hit> expected(rays.size());
   BruteForce(scene).closest_hits(rays, expected);
   std::vector<std::uint8_t> expected_blocked;
+  expected_blocked.reserve(expected.size());
   for (const Hit& hit : expected) expected_blocked.push_back(hit.valid() ? 1 : 0);
 
   const auto compare = [&](const Layout& layout, const std::string& what) {
