@@ -45,13 +45,14 @@ struct NamedRun {
 /// Keeps about `most` rays: whole calls, so that they stay as coherent as they are, from all over the set.
 void keep_spread_calls(std::vector<Ray>& rays, std::size_t most) {
   const std::size_t calls = rays.size() / rays_at_once, kept = std::max<std::size_t>(most / rays_at_once, 1);
-  if (calls > kept) {
-    for (std::size_t i = 0; i < kept; ++i) {
-      std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(i * calls / kept * rays_at_once), rays_at_once,
-                  rays.begin() + static_cast<std::ptrdiff_t>(i * rays_at_once));
-    }
-    rays.resize(kept * rays_at_once);
+  if (calls <= kept) return;
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::size_t from = i * calls / kept;  // never before i
+    if (from == i) continue;
+    std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(from * rays_at_once), rays_at_once,
+                rays.begin() + static_cast<std::ptrdiff_t>(i * rays_at_once));
   }
+  rays.resize(kept * rays_at_once);
 }
 
 /// Seconds that `part(begin, end)` takes for all of `count` rays.

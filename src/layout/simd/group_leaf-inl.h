@@ -113,15 +113,22 @@ HWY_INLINE void spread_triangle(const LeafBlock<L>& block, int lane, const RayGr
   }
 }
 
-/// One triangle against a register of rays: hits within the range of t of each.
-template <class D>
-HWY_INLINE TriangleHits<D> hit_by_register(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, int g) {
-  const auto of = [&](const GroupFloats& values) HWY_ATTR { return hn::Load(d, values.lanes[g]); };
+/// Triangles against rays of a group: hits within the range of t of each. of(values): those of the rays, a ray per
+/// lane.
+template <class D, class Of>
+HWY_INLINE TriangleHits<D> hit_rays_of(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, Of of) {
   const ShearedRays<D> rays{of(group.origin[group.kx]), of(group.origin[group.ky]), of(group.origin[group.kz]),
                             of(group.shear_x),          of(group.shear_y),          of(group.scale_z)};
   TriangleHits<D> hits = hit_triangles(d, triangle, rays);
   hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, of(group.t_near)), hn::Le(hits.t, of(group.t_limit))));
   return hits;
+}
+
+/// One triangle against a register of rays.
+template <class D>
+HWY_INLINE TriangleHits<D> hit_by_register(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, int g) {
+  return hit_rays_of(d, triangle, group,
+                     [&](const GroupFloats& values) HWY_ATTR { return hn::Load(d, values.lanes[g]); });
 }
 
 /// As many rays as there is room for in a register beside each other, each against all L triangles of a block.
@@ -142,18 +149,12 @@ class FewRays {
   /// Takes the first of `rays` away; lane L * i + k of the answer is the i-th of them and triangle k. When there are
   /// fewer, the last is there more than once.
   HWY_INLINE TriangleHits<D> hit_next(std::uint64_t& rays, int (&taken)[together]) const {
-    const D d;
     for (int i = 0; i < together; ++i) {
       taken[i] = std::countr_zero(rays);
       if (i + 1 == together || (rays & (rays - 1)) != 0) rays &= rays - 1;
     }
-    const auto of = [&](const GroupFloats& values) HWY_ATTR { return beside_each_other(values, taken); };
-    const ShearedRays<D> sheared{of(group_.origin[group_.kx]), of(group_.origin[group_.ky]),
-                                 of(group_.origin[group_.kz]), of(group_.shear_x),
-                                 of(group_.shear_y),           of(group_.scale_z)};
-    TriangleHits<D> hits = hit_triangles(d, triangles_, sheared);
-    hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, of(group_.t_near)), hn::Le(hits.t, of(group_.t_limit))));
-    return hits;
+    return hit_rays_of(D(), triangles_, group_,
+                       [&](const GroupFloats& values) HWY_ATTR { return beside_each_other(values, taken); });
   }
 
  private:
