@@ -9,25 +9,16 @@
 #include <vector>
 
 #include "boxwood/error.h"
-#include "layout/compressed/compressed_kernels.h"
 #include "layout/compressed/packed_leaf-inl.h"
 #include "layout/compressed/quantize.h"
 #include "layout/compressed/quantized_arena.h"
-#include "layout/simd/simd_layout.h"
+#include "simd/test_compressed.h"
 #include "simd/test_targets.h"
 #include "simd/test_trees.h"
 #include "trace/brute_force.h"
 
 namespace boxwood {
 namespace {
-
-std::shared_ptr<const Layout> encode(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
-  using Compressed = SimdLayout<QuantizedArena>;
-  if (width == 8) {
-    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh), compressed_kernels<8>());
-  }
-  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh), compressed_kernels<16>());
-}
 
 /// Boxes of every size and place: flat ones, far ones, ones that one float step bounds.
 std::vector<Box> boxes_to_round() {
@@ -91,7 +82,8 @@ TEST_P(CompressedOf, Answers_HaveTheBitsOfBruteForce) {
   const CompressedCase& c = GetParam();
   const OnlyTarget only(c.target);
   const Scene scene = test_scene(c.scene);
-  const auto layout = encode(c.width, test_tree(scene.meshes.front(), c.width, c.leaf), scene.meshes.front());
+  const auto layout =
+      encode_compressed(c.width, test_tree(scene.meshes.front(), c.width, c.leaf), scene.meshes.front());
   const std::vector<Ray> rays = test_rays(scene);
   std::vector<Hit> expected(rays.size()), single(rays.size()), batch(rays.size()), counted(rays.size());
   BruteForce(scene).closest_hits(rays, expected);
@@ -134,7 +126,7 @@ TEST(Compressed, Bytes_AreAtMostTwentyPerTriangle) {
   const Scene scene = test_scene("grid");
   const Mesh& mesh = scene.meshes.front();
   for (const std::uint32_t width : {8u, 16u}) {
-    const auto layout = encode(width, test_tree(mesh, width, 8), mesh);
+    const auto layout = encode_compressed(width, test_tree(mesh, width, 8), mesh);
     EXPECT_LE(layout->bytes(), 20 * mesh.triangles.size());
   }
 }
@@ -227,7 +219,7 @@ TEST(Compressed, SeparateTriangles_NameThoseThatNeedMoreThanTwentyBytes) {
     for (const std::uint32_t vertex : triangle) corners.push_back(mesh.positions[vertex]);
   }
   const Mesh separate = separate_triangles(corners);
-  const auto layout = encode(8, test_tree(separate, 8, 8), separate);
+  const auto layout = encode_compressed(8, test_tree(separate, 8, 8), separate);
   EXPECT_LE(layout->bytes(), bytes_per_triangle * separate.triangles.size());
   EXPECT_GE(layout->bytes(), (bytes_per_triangle - 1) * separate.triangles.size()) << "what there is room for is used";
 }
@@ -237,8 +229,8 @@ TEST(Compressed, LeavesTooLargeForTheirNode_AreRefusedOrNumbered) {
   const Mesh& mesh = scene.meshes.front();
   EXPECT_FALSE(fits_eight(test_tree(mesh, 2, 400)));
   EXPECT_TRUE(fits_eight(test_tree(mesh, 2, 20)));
-  EXPECT_THROW(encode(8, test_tree(mesh, 2, 400), mesh), UsageError);
-  EXPECT_NO_THROW(encode(16, test_tree(mesh, 2, 400), mesh));
+  EXPECT_THROW(encode_compressed(8, test_tree(mesh, 2, 400), mesh), UsageError);
+  EXPECT_NO_THROW(encode_compressed(16, test_tree(mesh, 2, 400), mesh));
 }
 
 }  // namespace

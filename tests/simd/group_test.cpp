@@ -1,6 +1,6 @@
 // Groups of coherent rays, as a camera or a lamp makes them: those that pass exactly through corners and edges hit what
 // the triangle test over all triangles hits, whichever triangles a group leaves out as a whole, on every instruction
-// set.
+// set that has registers for groups.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,10 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "layout/compressed/compressed_kernels.h"
-#include "layout/compressed/quantized_arena.h"
-#include "layout/simd/simd_layout.h"
 #include "layout/simd/wide_simd.h"
+#include "simd/test_compressed.h"
 #include "simd/test_targets.h"
 #include "simd/test_trees.h"
 #include "trace/brute_force.h"
@@ -61,13 +59,6 @@ std::vector<Ray> coherent_rays(const Scene& scene) {
   return rays;
 }
 
-std::shared_ptr<const Layout> compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
-  using Compressed = SimdLayout<QuantizedArena>;
-  if (width == 8)
-    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh), compressed_kernels<8>());
-  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh), compressed_kernels<16>());
-}
-
 class GroupsIn : public testing::TestWithParam<const char*> {};
 
 TEST_P(GroupsIn, CornersAndEdges_AreHitAsByBruteForce) {
@@ -99,7 +90,7 @@ TEST_P(GroupsIn, CornersAndEdges_AreHitAsByBruteForce) {
         const std::string name =
             std::to_string(width) + " wide, leaves of " + std::to_string(leaf) + ", " + hwy::TargetName(target);
         compare(*encode_simd_wide(width, tree, contents, {}), name);
-        compare(*compressed(width, tree, mesh), name + ", compressed");
+        compare(*encode_compressed(width, tree, mesh), name + ", compressed");
       }
     }
   }

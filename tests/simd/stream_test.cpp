@@ -10,10 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "layout/compressed/compressed_kernels.h"
-#include "layout/compressed/quantized_arena.h"
-#include "layout/simd/simd_layout.h"
 #include "layout/simd/wide_simd.h"
+#include "simd/test_compressed.h"
 #include "simd/test_targets.h"
 #include "simd/test_trees.h"
 #include "support/trees.h"
@@ -36,13 +34,6 @@ std::vector<Ray> rays_around(const Vec3& center) {
     rays.push_back(ray);
   }
   return rays;
-}
-
-std::shared_ptr<const Layout> encode_compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
-  using Compressed = SimdLayout<QuantizedArena>;
-  if (width == 8)
-    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh), compressed_kernels<8>());
-  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh), compressed_kernels<16>());
 }
 
 /// What any-hit queries of a scene are to answer.
