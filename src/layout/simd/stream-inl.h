@@ -40,11 +40,46 @@ struct StreamLevel {
   alignas(64) WideReference children[16];
 };
 
+/// Rays with leaves that they enter, waiting for their tests: those of several leaves go into one loop, since few rays
+/// share a leaf and the end of a loop of two or three rounds is mispredicted as often as not.
+template <class Store>
+struct LeafQueue {
+  /// At the end of a node, tests are made when so many wait: later, and more would be made of rays that are blocked.
+  static constexpr std::uint32_t enough = 12;
+  /// So many are made in any case.
+  static constexpr std::uint32_t most = 256;
+  static constexpr std::uint32_t capacity = most + most_in_stream + 32;  // whole vectors are written behind the end
+
+  std::uint32_t size = 0, leaves = 0;
+  alignas(64) std::uint32_t rays[capacity];  // offsets of slots
+  alignas(64) WideReference references[capacity];
+  alignas(64) const LeafBlock<Store::triangles>* blocks[capacity];  // the first of the leaf
+  typename Store::BlockBuffer buffers[most];                        // of each leaf
+
+  /// Has the last `count` of `rays` wait for a leaf.
+  HWY_INLINE void add(const WideView& view, WideReference leaf, std::uint32_t count) {
+    const WidestWords words;
+    const hn::Repartition<std::uint64_t, WidestWords> pointers;
+    const auto reference = hn::Set(words, leaf);
+    const auto block =
+        hn::Set(pointers, reinterpret_cast<std::uint64_t>(&Store::block(view, leaf, 0, buffers[leaves++])));
+    auto* out = reinterpret_cast<std::uint64_t*>(blocks + size);
+    for (std::uint32_t i = 0; i < count; i += lanes_of<WidestWords>) {
+      hn::StoreU(reference, words, references + size + i);
+      hn::StoreU(block, pointers, out + i);
+      hn::StoreU(block, pointers, out + i + lanes_of<WidestWords> / 2);
+    }
+    size += count;
+  }
+};
+
+template <class Store>
 struct StreamMemory {
   Slot slots[most_in_stream];
   alignas(64) std::uint32_t rays[stream_entries];  // offsets of slots
   alignas(64) std::uint16_t met[stream_entries];   // which children of the level's node each of them meets, a bit each
   StreamLevel levels[stream_depth];
+  LeafQueue<Store> queue;
 
   HWY_INLINE Slot& slot(std::uint32_t offset) {
     return *reinterpret_cast<Slot*>(reinterpret_cast<std::byte*>(slots) + offset);
@@ -60,34 +95,6 @@ HWY_INLINE void note(Slot& slot, bool found, std::uint8_t* blocked) {
   slot.t_limit = std::bit_cast<float>((std::bit_cast<std::uint32_t>(slot.t_limit) & ~all) | (none & all));
 }
 
-/// The rays of a list against a leaf that all of them enter. The list has room for one more.
-template <class Store>
-HWY_INLINE void any_in_shared_leaf(const WideView& view, WideReference leaf, StreamMemory& memory, std::uint32_t* list,
-                                   std::uint32_t size, std::uint8_t* blocked) {
-  typename Store::BlockBuffer buffer;
-  list[size] = list[size - 1];  // an odd last ray is its own partner
-  bool more = true;
-  for (std::size_t number = 0; more; ++number) {
-    const auto& block = Store::block(view, leaf, number, buffer);
-    more = (block.primitives[0] & more_blocks) != 0;
-#if HWY_TARGET <= HWY_AVX3
-    if constexpr (Store::triangles == 8) {
-      for (std::uint32_t i = 0; i < size; i += 2) {
-        Slot &a = memory.slot(list[i]), &b = memory.slot(list[i + 1]);
-        const std::uint32_t bits = bits_of(BlockPair::D(), BlockPair{block, block}.hit(a, b).hit);
-        note(a, (bits & 0xff) != 0, blocked);
-        note(b, (bits & 0xff00) != 0, blocked);
-      }
-      continue;
-    }
-#endif
-    for (std::uint32_t i = 0; i < size; ++i) {
-      Slot& slot = memory.slot(list[i]);
-      note(slot, any_in_block(block, slot.leaf, slot.t_near, slot.t_limit), blocked);
-    }
-  }
-}
-
 template <class Store>
 class AnyStream {
   static constexpr int N = Store::children;
@@ -97,7 +104,8 @@ class AnyStream {
 
  public:
   /// Sets those of `blocked` that are, and leaves the others.
-  AnyStream(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked, StreamMemory& memory)
+  AnyStream(const WideView& view, std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+            StreamMemory<Store>& memory)
       : view_(view), rays_(rays), blocked_(blocked.data()), memory_(memory) {}
 
   /// Traces the rays with these indices, all of one octant, a bit per axis: set where the direction is negative.
@@ -137,23 +145,85 @@ class AnyStream {
     open(*level, view_.root, 0, size);
     while (true) {
       if (level->left == 0) {
-        if (level == memory_.levels) return;
+        if (level == memory_.levels) break;
         --level;
         continue;
       }
       const std::uint32_t leaves = level->left & level->leaves;
-      const auto lane = static_cast<std::uint32_t>(std::bit_width(leaves != 0 ? leaves : level->left)) - 1;
+      if (leaves != 0) {
+        queue_leaves(*level, leaves);
+        level->left &= ~leaves;
+        continue;
+      }
+      const auto lane = static_cast<std::uint32_t>(std::bit_width(level->left)) - 1;
       level->left &= ~(1u << lane);
       const std::uint32_t begin = level->begin + room_for(level->size);
       const std::uint32_t count = list_rays(*level, lane, memory_.rays + begin);
       const WideReference child = level->children[lane];
-      if (leaves != 0) {
-        any_in_shared_leaf<Store>(view_, child, memory_, memory_.rays + begin, count, blocked_);
-      } else if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
+      if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
         one_by_one(child, memory_.rays + begin, count);
       } else {
         open(*++level, child, begin, count);
       }
+    }
+    test_leaves();
+  }
+
+  /// Has the rays of a level wait for those of its leaves that they enter.
+  HWY_INLINE void queue_leaves(const StreamLevel& level, std::uint32_t leaves) {
+    LeafQueue<Store>& queue = memory_.queue;
+    for (; leaves != 0; leaves &= leaves - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(leaves));
+      queue.add(view_, level.children[lane], list_rays(level, lane, queue.rays + queue.size));
+      if (queue.size >= queue.most) test_leaves();
+    }
+    if (queue.size >= queue.enough) test_leaves();
+  }
+
+  HWY_NOINLINE void test_leaves() {
+    LeafQueue<Store>& queue = memory_.queue;
+    std::uint32_t more = 0;
+    if (queue.size != 0) more = test_first_blocks();
+    if (HWY_UNLIKELY((more & more_blocks) != 0)) test_more_blocks();
+    queue.size = queue.leaves = 0;
+  }
+
+  /// Returns the names of triangles, or'ed.
+  HWY_INLINE std::uint32_t test_first_blocks() {
+    LeafQueue<Store>& queue = memory_.queue;
+    const std::uint32_t size = queue.size;
+    std::uint32_t names = 0;
+#if HWY_TARGET <= HWY_AVX3
+    if constexpr (Store::triangles == 8) {
+      queue.rays[size] = queue.rays[size - 1];  // an odd last ray is its own partner
+      queue.blocks[size] = queue.blocks[size - 1];
+      for (std::uint32_t i = 0; i < size; i += 2) {
+        Slot &a = memory_.slot(queue.rays[i]), &b = memory_.slot(queue.rays[i + 1]);
+        const BlockPair pair{*queue.blocks[i], *queue.blocks[i + 1]};
+        const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
+        note(a, (bits & 0xff) != 0, blocked_);
+        note(b, (bits & 0xff00) != 0, blocked_);
+        names |= pair.a.primitives[0] | pair.b.primitives[0];
+      }
+      return names;
+    }
+#endif
+    for (std::uint32_t i = 0; i < size; ++i) {
+      Slot& slot = memory_.slot(queue.rays[i]);
+      const auto& block = *queue.blocks[i];
+      note(slot, any_in_block(block, slot.leaf, slot.t_near, slot.t_limit), blocked_);
+      names |= block.primitives[0];
+    }
+    return names;
+  }
+
+  void test_more_blocks() {
+    LeafQueue<Store>& queue = memory_.queue;
+    for (std::uint32_t i = 0; i < queue.size; ++i) {
+      if ((queue.blocks[i]->primitives[0] & more_blocks) == 0) continue;
+      Slot& slot = memory_.slot(queue.rays[i]);
+      slot.next = queue.references[i];
+      note(slot, any_in_blocks<Store>(view_, 1, slot), blocked_);
     }
   }
 
@@ -233,7 +303,7 @@ class AnyStream {
   const WideView& view_;
   std::span<const Ray> rays_;
   std::uint8_t* blocked_;
-  StreamMemory& memory_;
+  StreamMemory<Store>& memory_;
   std::uint32_t near_row_[3] = {};
   std::uint64_t visits_ = 0, nodes_ = 0;
 };
@@ -280,7 +350,7 @@ HWY_NOINLINE std::size_t any_by_streams(const WideView& view, std::span<const Ra
   const std::size_t least = among_groups ? least_stream : stream_probe;
   if (rays.size() < least) return 0;
   if (!among_groups && !start_close(rays.first(stream_probe), view.reach)) return 0;
-  StreamMemory memory;
+  StreamMemory<Store> memory;
   std::size_t done = 0;
   while (done < rays.size()) {
     const std::size_t size = std::min(done == 0 ? first : stream_block, rays.size() - done);
