@@ -31,7 +31,7 @@ HWY_INLINE void prefetch_next(const WideView& view, const std::uint32_t* next, s
 struct Lists {
   enum class Pass { none, nodes, leaves, pops };
 
-  SlotList nodes, leaves, pops, finished;
+  SlotList nodes, leaves, pops, free;
   alignas(64) std::uint32_t next[most_in_flight + 16];  // of the rays in the list that was passed last
   Pass last = Pass::none;
 
@@ -75,14 +75,15 @@ class ClosestBatch {
 
   void run() {
     const int in_flight = slots_.in_flight();
-    for (int i = 0; i < in_flight; ++i) load(slots_.offset(i), groups_[i % ray_groups]);
+    for (int i = 0; i < in_flight; ++i) groups_[i % ray_groups].free.add(slots_.offset(i));
+    for (Lists& lists : groups_) load(lists);
     take_turns(
         groups_, [&](Lists& lists) { begin(lists); }, [&](Lists& lists) { end(lists); });
   }
 
  private:
-  /// Puts the next ray that the lists can serve into a slot; none when the batch is done.
-  HWY_NOINLINE void load(std::uint32_t offset, Lists& lists) {
+  /// Puts the next rays that the lists can serve into free slots.
+  HWY_INLINE void load(Lists& lists) {
     const auto skip = [&](const Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
       __builtin_prefetch(&hits_[index], 1);
       // Keys order by their bits, which negative distances do not do.
@@ -90,7 +91,7 @@ class ClosestBatch {
       hits_[index] = closest_hit<Store>(view_, prepare(rays_[index], view_.reach), CountNothing{});
       return true;
     };
-    if (incoming_.next(slots_, slots_.at(offset), skip)) lists.nodes.add(offset);
+    incoming_.fill(slots_, lists.free, lists.nodes, skip);
   }
 
   void begin(Lists& lists) {
@@ -121,13 +122,13 @@ class ClosestBatch {
       append(lists.leaves, lists.pops);
     } else if (lists.last == Lists::Pass::pops) {
       const std::uint32_t size = std::exchange(lists.pops.size, 0);
-      lists.finished.size = 0;
-      split(lists.pops.offsets, size, lists.next, lists.nodes, lists.leaves, lists.finished);
-      for (std::uint32_t i = 0; i < lists.finished.size; ++i) {
-        const Slot& slot = slots_.at(lists.finished.offsets[i]);
+      const std::uint32_t free = lists.free.size;
+      split(lists.pops.offsets, size, lists.next, lists.nodes, lists.leaves, lists.free);
+      for (std::uint32_t i = free; i < lists.free.size; ++i) {
+        const Slot& slot = slots_.at(lists.free.offsets[i]);
         hits_[slot.index] = slot.best;
-        load(lists.finished.offsets[i], lists);
       }
+      load(lists);
     }
   }
 
@@ -170,18 +171,19 @@ class AnyBatch {
 
   void run() {
     const int in_flight = slots_.in_flight();
-    for (int i = 0; i < in_flight; ++i) load(slots_.offset(i), groups_[i % ray_groups]);
+    for (int i = 0; i < in_flight; ++i) groups_[i % ray_groups].free.add(slots_.offset(i));
+    for (Lists& lists : groups_) load(lists);
     take_turns(
         groups_, [&](Lists& lists) { begin(lists); }, [&](Lists& lists) { end(lists); });
   }
 
  private:
-  HWY_NOINLINE void load(std::uint32_t offset, Lists& lists) {
+  HWY_INLINE void load(Lists& lists) {
     const auto skip = [&](const Slot&, bool valid, std::uint32_t index) HWY_ATTR {
       blocked_[index] = 0;
       return !valid;
     };
-    if (incoming_.next(slots_, slots_.at(offset), skip)) lists.nodes.add(offset);
+    incoming_.fill(slots_, lists.free, lists.nodes, skip);
   }
 
   void begin(Lists& lists) {
@@ -203,9 +205,8 @@ class AnyBatch {
     if (lists.last == Lists::Pass::none) return;
     SlotList& from = lists.last == Lists::Pass::nodes ? lists.nodes : lists.leaves;
     const std::uint32_t size = std::exchange(from.size, 0);
-    lists.finished.size = 0;
-    split(from.offsets, size, lists.next, lists.nodes, lists.leaves, lists.finished);
-    for (std::uint32_t i = 0; i < lists.finished.size; ++i) load(lists.finished.offsets[i], lists);
+    split(from.offsets, size, lists.next, lists.nodes, lists.leaves, lists.free);
+    load(lists);
   }
 
   const WideView& view_;

@@ -118,7 +118,7 @@ HWY_INLINE void spread_triangle(const LeafBlock<L>& block, int lane, const RayGr
 template <class D, class Of>
 HWY_INLINE TriangleHits<D> hit_rays_of(D d, const Vertices<D> (&triangle)[3], const RayGroup& group, Of of) {
   const ShearedRays<D> rays{of(group.origin[group.kx]), of(group.origin[group.ky]), of(group.origin[group.kz]),
-                            of(group.shear_x),          of(group.shear_y),          of(group.scale_z)};
+                            of(group.shear_x),          of(group.shear_y),          of(group.scale_z())};
   TriangleHits<D> hits = hit_triangles(d, triangle, rays);
   hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, of(group.t_near)), hn::Le(hits.t, of(group.t_limit))));
   return hits;

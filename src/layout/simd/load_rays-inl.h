@@ -122,61 +122,50 @@ HWY_INLINE void prefetch_rays(std::span<const Ray> rays, std::size_t begin, std:
 /// How far ahead of those that are being prepared.
 inline constexpr std::size_t rays_ahead = 32;
 
-/// The rays of a batch in order, ready to be put into slots.
+/// Puts the rays of a batch into slots, in order.
 template <std::uint32_t RowBytes>
 class IncomingRays {
  public:
   IncomingRays(std::span<const Ray> rays, const WideView& view) : rays_(rays), view_(view) {}
 
-  /// Puts the next ray in front of the root of the tree. Those that `skip(ready ray, whether it is valid, index)` is
-  /// true of are passed over. False when there are none left.
+  /// Takes free slots, eight at a time, for the next rays in front of the root of the tree. Rays that
+  /// `skip(slot, whether it is valid, index)` is true of are passed over.
   template <class Skip>
-  HWY_INLINE bool next(const Slots& slots, Slot& slot, Skip skip) {
-    while (left_ == 0) {
-      if (prepared_ == rays_.size()) return false;
-      prepare_more(skip);
+  HWY_INLINE void fill(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
+    while (next_ < rays_.size() && free.size >= std::min<std::size_t>(8, rays_.size() - next_)) {
+      put_eight(slots, free, nodes, skip);
     }
-    const auto i = static_cast<std::uint32_t>(std::countr_zero(left_));
-    left_ &= left_ - 1;
-    copy_ray(ready_[i], slot);
-    slot.next = view_.root;
-    slot.top = stack_bottom + 1;
-    slot.best = Hit{};
-    slot.index = begin_ + i;
-    slots.references(slot)[stack_bottom] = wide_finished;
-    slots.keys(slot)[stack_bottom] = -1;
-    return true;
   }
 
  private:
-  static HWY_INLINE void copy_ray(const Slot& from, Slot& to) {
-    const EightFloats d;
-    const auto* in = reinterpret_cast<const float*>(&from);
-    auto* out = reinterpret_cast<float*>(&to);
-    for (int part = 0; part < 32; part += 8) hn::Store(hn::Load(d, in + part), d, out + part);
-  }
-
   template <class Skip>
-  HWY_NOINLINE void prepare_more(Skip skip) {
-    const std::size_t size = std::min<std::size_t>(8, rays_.size() - prepared_);
-    begin_ = static_cast<std::uint32_t>(prepared_);
-    prefetch_rays(rays_, prepared_ + rays_ahead, 8);
+  HWY_NOINLINE void put_eight(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
+    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(8, rays_.size() - next_));
+    const std::uint32_t begin = free.size - count;
+    prefetch_rays(rays_, next_ + rays_ahead, 8);
     // Missing rays are the last one again.
     const std::uint32_t valid = load_eight<RowBytes>(
-        view_.reach, [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[prepared_ + std::min(i, size - 1)]; },
-        [&](std::size_t i) HWY_ATTR -> Slot& { return ready_[i]; });
-    for (std::uint32_t i = 0; i < size; ++i) {
-      left_ |= static_cast<std::uint32_t>(!skip(ready_[i], (valid >> i & 1) != 0, begin_ + i)) << i;
+        view_.reach,
+        [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[next_ + std::min<std::size_t>(i, count - 1)]; },
+        [&](std::size_t i) HWY_ATTR -> Slot& { return i < count ? slots.at(free.offsets[begin + i]) : spare_; });
+    free.size = begin;
+    for (std::uint32_t i = 0; i < count; ++i, ++next_) {
+      const std::uint32_t offset = free.offsets[begin + i];
+      Slot& slot = slots.at(offset);
+      slot.next = view_.root;
+      slot.top = stack_bottom + 1;
+      slot.best = Hit{};
+      slot.index = static_cast<std::uint32_t>(next_);
+      slots.references(slot)[stack_bottom] = wide_finished;
+      slots.keys(slot)[stack_bottom] = -1;
+      (skip(slot, (valid >> i & 1) != 0, slot.index) ? free : nodes).add(offset);
     }
-    prepared_ += size;
   }
 
   std::span<const Ray> rays_;
   const WideView& view_;
-  std::size_t prepared_ = 0;  // rays
-  std::uint32_t begin_ = 0;   // of the eight that are ready, in the batch
-  std::uint32_t left_ = 0;    // of these, a bit each
-  Slot ready_[8] = {};
+  std::size_t next_ = 0;
+  Slot spare_;
 };
 
 #endif  // HWY_MAX_BYTES >= 32

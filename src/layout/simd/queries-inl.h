@@ -122,7 +122,7 @@ struct Batch {
         continue;
       }
       prefetch_rays(rays, next + group_size, group_size);
-      if (!prepare_group(rays.subspan(next, group_size), view.reach, group)) continue;
+      if (!prepare_group(rays.subspan(next, group_size), view.reach, next != 0 && done == next, group)) continue;
       if (!on_group(group, next)) {
         pass_over = penalty;
         penalty = std::min<std::size_t>(2 * penalty, 64);

@@ -40,7 +40,7 @@ struct alignas(64) GroupFloats {
 /// intervals that hold them all. The same bits as prepare() where the triangle test reads them.
 struct RayGroup {
   GroupFloats origin[3], inverse[3], near_offset[3], far_offset[3], t_near, t_limit;
-  GroupFloats shear_x, shear_y, scale_z;
+  GroupFloats shear_x, shear_y;
   int negative[3];
   int kx, ky, kz;
 
@@ -50,6 +50,9 @@ struct RayGroup {
   float slack[3];  // error bound of plane distances: more than any ray's own
   float error;     // of the triangle test, where rays see corners: more than any ray's own
   float least_t_near;
+
+  /// 1 / dominant component, which is never so small that another is taken for it.
+  HWY_INLINE const GroupFloats& scale_z() const { return inverse[kz]; }
 };
 
 /// Rays of a coherent group differ at most this much in the ratios of their direction's components to the dominant one.
@@ -69,8 +72,9 @@ HWY_INLINE std::uint32_t direction_class(const Ray& ray) {
 /// A look at a few rays that rejects nearly every incoherent group.
 HWY_INLINE bool looks_coherent(std::span<const Ray> rays) {
   const std::uint32_t first = direction_class(rays[0]);
+  if (direction_class(rays[63]) != first) return false;
   bool same = true;
-  for (const std::size_t i : {63, 7, 31, 56, 20, 42, 13}) same &= direction_class(rays[i]) == first;
+  for (const std::size_t i : {7, 31, 56, 20, 42, 13}) same &= direction_class(rays[i]) == first;
   return same;
 }
 
@@ -137,13 +141,13 @@ HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int part, RayGroup& 
   hn::Store(t_far, d, group.t_limit.eight(part));
   hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.eight(part));
   hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.eight(part));
-  hn::Store(hn::Div(one, direction[group.kz]), d, group.scale_z.eight(part));
   return true;
 }
 
-/// Fills `group` from 64 rays. False when they are not coherent enough to be traced as one.
-HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, RayGroup& group) {
-  if (!looks_coherent(rays)) return false;
+/// Fills `group` from 64 rays. False when they are not coherent enough to be traced as one. `likely`: those before
+/// were.
+HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, bool likely, RayGroup& group) {
+  if (!likely && !looks_coherent(rays)) return false;
   const Vec3& first = rays[0].direction;
   group.kz = dominant_axis(first);
   group.kx = group.kz == 2 ? 0 : group.kz + 1;

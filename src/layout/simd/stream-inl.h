@@ -101,6 +101,7 @@ class AnyStream {
   using D = Floats<N>;
   using V = hn::Vec<D>;
   using Words = hn::RebindToUnsigned<D>;
+  static constexpr bool one_register = lanes_of<D> == N;
 
  public:
   /// Sets those of `blocked` that are, and leaves the others.
@@ -251,7 +252,8 @@ class AnyStream {
     level.begin = begin;
     level.size = size;
     level.left = level.leaves = 0;
-    std::fill_n(memory_.met + begin, size + 16, std::uint16_t{0});
+    // Of one register of children all bits are written, of two parts of them the second adds to the first.
+    std::fill_n(memory_.met + begin + (one_register ? size : 0), one_register ? 16 : size + 16, std::uint16_t{0});
     for (int first = 0; first < N; first += lanes_of<D>) {
       level.left |= meet(node, first, memory_.rays + begin, memory_.met + begin, size);
       const auto children = hn::Load(dw, node.children + first);
@@ -285,7 +287,7 @@ class AnyStream {
       const V exit = hn::Min(hn::Min(plane(far_x, x, ray.far_offset[0]), plane(far_y, y, ray.far_offset[1])),
                              hn::Min(plane(far_z, z, ray.far_offset[2]), hn::Set(d, ray.t_limit)));
       const std::uint32_t bits = bits_of(d, hn::Le(entry, exit)) << first;
-      met[i] = static_cast<std::uint16_t>(met[i] | bits);
+      met[i] = static_cast<std::uint16_t>((one_register ? 0 : met[i]) | bits);
       any |= bits;
     }
     return any;
