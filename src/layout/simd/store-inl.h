@@ -36,11 +36,18 @@ struct PlainStore {
                                               BlockBuffer&) {
     return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
   }
-  /// Of the lines of a node, or as many of a block.
+  /// All lines of a node or of a block.
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
-    constexpr std::size_t lines = std::max(sizeof(WideNode<N>), std::size_t{256}) / 64;
+    constexpr std::size_t node_bytes = sizeof(WideNode<N>), block_bytes = sizeof(LeafBlock<L>);
     const std::byte* place = view.base + std::size_t{reference} * 16;
-    for (std::size_t line = 0; line < lines; ++line) __builtin_prefetch(place + 64 * line);
+    if constexpr (node_bytes <= block_bytes) {
+      for (std::size_t at = 0; at < block_bytes; at += 64) __builtin_prefetch(place + at);
+    } else {
+      for (std::size_t at = 0; at < block_bytes; at += 64) __builtin_prefetch(place + at);
+      // What only nodes have; of blocks the first lines again, without a branch.
+      const std::byte* rest = place + (block_bytes >> (reference % 2 * 8));
+      for (std::size_t at = 0; at < node_bytes - block_bytes; at += 64) __builtin_prefetch(rest + at);
+    }
   }
 };
 
