@@ -22,6 +22,7 @@ BlockBuilder::BlockBuilder(std::span<const Reference> references, const MortonOr
     : references_(references),
       order_(order),
       options_(options),
+      slack_of_large_(std::min(options.slack, 1 / LargeLeaf::most_in_halves)),
       stack_(block_size, 2 * kept_clusters, options),
       primitives_(block_size),
       runs_(block_size),
@@ -63,8 +64,9 @@ void BlockBuilder::push_references(std::size_t begin, std::size_t end) {
     Box4 grown = bounds;
     grown.grow(box);
     const std::uint32_t blocks = run.references / options_.leaf_block + 1;
-    const float grown_cost = half_area(grown) * static_cast<float>(blocks);
-    if (i > begin && run.references < options_.run && grown_cost <= options_.slack * (run.cost + area)) {
+    const float grown_area = half_area(grown), grown_cost = grown_area * static_cast<float>(blocks);
+    const float slack = options_.large_leaf.is_large(grown_area) ? slack_of_large_ : options_.slack;
+    if (i > begin && run.references < options_.run && grown_cost <= slack * (run.cost + area)) {
       bounds = grown;
       run.cost = grown_cost;
       ++run.references;

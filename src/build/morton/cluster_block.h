@@ -86,6 +86,7 @@ class BlockBuilder {
   std::span<const Reference> references_;
   const MortonOrder& order_;
   ClusteringOptions options_;
+  float slack_of_large_;  ///< `slack` of leaves that are large
   ClusterStack stack_;
   std::vector<std::uint32_t> primitives_;  ///< of the references, by place
   std::vector<Run> runs_;                  ///< by the place of their first reference

@@ -50,7 +50,8 @@ Cluster ClusterStack::join(const Cluster& left, const Cluster& right, ClusterNod
   if (left.leaf_references > 0 && right.leaf_references > 0 && references <= options_.leaf_size) {
     const std::uint32_t blocks = (references + options_.leaf_block - 1) / options_.leaf_block;
     const float leaf_cost = area * static_cast<float>(blocks);
-    if (leaf_cost <= inner_cost) {
+    const bool in_halves = blocks == 1 && options_.large_leaf.is_better_in_halves(area, left.cost + right.cost);
+    if (leaf_cost <= inner_cost && !in_halves) {
       return {bounds, ClusterId::node(slot, true), right.free_slot, references, leaf_cost};
     }
   }

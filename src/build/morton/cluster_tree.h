@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "boxwood/box.h"
+#include "build/large_leaf.h"
 
 namespace boxwood {
 
@@ -17,6 +18,7 @@ struct ClusteringOptions {
   float slack = 1;          ///< how much dearer than apart their references may be
   std::uint32_t group = 1;  ///< most such clusters next to each other that are one node from the start
   std::uint32_t width = 2;  ///< most children of a node, 2…max_cluster_width
+  LargeLeaf large_leaf;     ///< which leaves of one block are better in two
 };
 
 /// What a cluster is: a leaf or a node of leaves that was there before clustering (by the place of its first

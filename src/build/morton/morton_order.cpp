@@ -58,7 +58,7 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
   // Not infinite for denormal sizes: zero times infinity is no cell.
   const float scale = size > 0 ? std::min(cells / size, std::numeric_limits<float>::max()) : 0;
 
-  MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits};
+  MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits, half_area(bounds) / 4};
   RawArray<std::uint64_t> scratch(references.size());
   tbb::parallel_for(Range(0, references.size(), grain), [&](const Range& range) {
     const auto cell = [&](float offset) {

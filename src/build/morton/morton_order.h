@@ -12,6 +12,7 @@ namespace boxwood {
 struct MortonOrder {
   RawArray<std::uint64_t> keys;  ///< ascending
   unsigned index_bits = 0;       ///< low bits that hold the place
+  float area = 0;                ///< half the area of the box of all centres
 
   std::uint32_t reference(std::size_t i) const {
     return static_cast<std::uint32_t>(keys[i] & ((std::uint64_t{1} << index_bits) - 1));

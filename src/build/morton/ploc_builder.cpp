@@ -11,6 +11,10 @@
 namespace boxwood {
 namespace {
 
+/// Times a reference's share of the scene's area from which a leaf is large. More than where trees are to be the best:
+/// that costs the smaller trees of this builder no memory.
+constexpr float large_leaf = 512;
+
 struct PlocOptions {
   std::uint32_t radius = 8;
   std::uint32_t morton = 30;
@@ -31,9 +35,10 @@ Tree build_ploc(const PlocOptions& options, BuildInput input) {
     throw Error("'ploc' takes fewer than 2^30 primitives; split the scene into instances");
   }
   const MortonOrder order = morton_order(input.references, options.morton);
+  const LargeLeaf large = options.block > 1 ? LargeLeaf(order.area, input.references.size(), large_leaf) : LargeLeaf();
   Tree tree = cluster(input.references, order,
                       {options.radius, options.leaf, options.block, std::min(options.run, options.leaf), options.slack,
-                       std::min(options.group, options.width), options.width});
+                       std::min(options.group, options.width), options.width, large});
   tree.clipped_leaves = cut;
   return tree;
 }

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "boxwood/error.h"
+#include "build/large_leaf.h"
 #include "build/spatial/fragments.h"
 #include "build/spatial/split.h"
 #include "build/spatial/stages.h"
@@ -35,11 +36,8 @@ constexpr std::uint32_t serial_size = 1 << 12;
 /// Space is divided only where the parts would overlap by at least this part of the node: half the build time, and
 /// trees no worse.
 constexpr float least_overlap = 0.1f;
-/// A leaf is large, and looked at for halves with less area together, from this many times the area that the scene's box
-/// has for each reference: few are, but most rays that come to leaves come to these.
+/// Times a reference's share of the scene's area from which a leaf is large.
 constexpr float large_leaf = 64;
-/// How much of the area of a large leaf the halves may have for it to be divided.
-constexpr float most_in_halves = 0.9f;
 /// Below this level sets are halved by count, so that no input makes a deep tree.
 constexpr std::uint32_t last_free_level = 64;
 
@@ -84,6 +82,7 @@ class SpatialBuilder {
     }
     if (!options_.cost.is_surface_area()) model_ = options_.cost.make({all.bounds.box(), use_});
     root_area_ = half_area(all.bounds);
+    large_leaf_ = LargeLeaf(root_area_, size_, large_leaf);
     const std::unique_ptr<Branch> root = grow(all, 0, nullptr);
     Tree tree;
     tree.clipped_leaves = geometry_ != nullptr;
@@ -139,19 +138,17 @@ class SpatialBuilder {
     return best;
   }
 
-  bool is_large(float area) const { return area * static_cast<float>(size_) >= large_leaf * root_area_; }
-
   /// False: the node is to be a leaf.
   bool divide(const Fragments& node, std::uint32_t level, const Memory& memory, FragmentDivider& divider,
               FragmentPair& parts) const {
     const std::uint32_t count = node.size();
     const float area = half_area(node.bounds);
-    // One block of references is never cheaper divided, unless a wide node above has room for both halves.
+    // One block of references is only divided when it is large.
     const bool one_block = count <= options_.leaf && price_(count) <= 1;
-    if (one_block && (count == 1 || !is_large(area))) return false;
+    if (one_block && (count == 1 || !large_leaf_.is_large(area))) return false;
     bool spatial = false;
     const Split split = level < last_free_level ? find_split(node, divider, memory, spatial) : Split{};
-    if (one_block && split.cost > most_in_halves * area) return false;
+    if (one_block && !large_leaf_.is_better_in_halves(area, split.cost)) return false;
     if (!one_block && count <= options_.leaf && area * price_(count) <= area + split.cost) return false;
     if (!split.found()) {
       parts = divider.by_count(node);
@@ -284,6 +281,7 @@ class SpatialBuilder {
   std::uint32_t size_;
   RawArray<Reference> array_;  ///< with room for parts
   float root_area_ = 0;
+  LargeLeaf large_leaf_;
   tbb::enumerable_thread_specific<FragmentDivider> dividers_;
   tbb::enumerable_thread_specific<Sink> sinks_;
 };
