@@ -27,7 +27,7 @@ namespace HWY_NAMESPACE {
 
 inline constexpr std::uint32_t most_in_stream = 1024;
 /// Rays gathered by octant at a time.
-inline constexpr std::size_t stream_block = 4096;
+inline constexpr std::size_t stream_block = 2048;
 /// Levels of nodes that a stream has room for, and entries of their lists. Nodes below go ray by ray.
 inline constexpr std::uint32_t stream_depth = 48;
 inline constexpr std::uint32_t stream_entries = 8192;
@@ -328,7 +328,7 @@ struct Octants {
 /// Streams are for rays that share nodes: when fewer than this enter one together, rays in flight are faster.
 inline constexpr double least_together = 7.5;
 /// How many show whether they do, and how many are traced in flight before the next look.
-inline constexpr std::size_t stream_probe = 256, stream_pause = 4 * stream_block;
+inline constexpr std::size_t stream_probe = 256, stream_pause = 8 * stream_block;
 /// Fewer are not worth their lists, even those that lie between coherent groups, which are not looked at first.
 inline constexpr std::size_t least_stream = 64;
 
