@@ -17,6 +17,11 @@ const Stage& find_stage(std::string_view name, bool at_beginning) {
     if (stage.name == name && (!found || (stage.kind == StageKind::builder) == at_beginning)) found = &stage;
   }
   if (found) return *found;
+  for (const Preset& preset : presets()) {
+    if (preset.name != name) continue;
+    throw UsageError(fmt::format("'{}' is a whole recipe and stands alone; in a longer one write its stages, '{}'",
+                                 name, text_here(preset)));
+  }
   std::vector<std::string> names;
   for (const Stage& stage : stages()) names.push_back(stage.name);
   for (const Preset& preset : presets()) names.push_back(preset.name);

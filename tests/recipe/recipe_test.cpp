@@ -122,6 +122,13 @@ TEST(Recipe, UnknownNamesAreAnsweredWithTheNearestAndTheList) {
   EXPECT_NE(option.find("did you mean 'k'?"), std::string::npos) << option;
 }
 
+TEST(Recipe, PresetInALongerRecipeIsAnsweredWithItsStages) {
+  for (const std::string text : {"fast > wide(8)", "median > fast"}) {
+    const std::string message = usage_error(text);
+    EXPECT_NE(message.find(Recipe::parse("fast").text()), std::string::npos) << message;
+  }
+}
+
 class BadRecipe : public testing::TestWithParam<const char*> {};
 
 TEST_P(BadRecipe, IsAUsageErrorOfOneSentence) {
