@@ -148,7 +148,6 @@ inline const std::vector<Stage>& stages_here() {
 /// The tree of "builder(…) > refinement(…) > …".
 inline Tree build_tree(const std::string& pipeline, const Triangles& triangles) {
   Tree tree;
-  BuildInput input = triangles.input();
   for (std::size_t begin = 0; begin < pipeline.size();) {
     const std::size_t end = std::min(pipeline.find('>', begin), pipeline.size());
     const CallText call = parse_call_text(trim(std::string_view(pipeline).substr(begin, end - begin)));
@@ -156,7 +155,7 @@ inline Tree build_tree(const std::string& pipeline, const Triangles& triangles) 
       if (stage.name != call.name) continue;
       std::any options = stage.defaults;
       set_options(stage.options, options, call);
-      tree = stage.build ? stage.build(options, std::move(input)) : stage.refine(options, std::move(tree));
+      tree = stage.build ? stage.build(options, triangles.input()) : stage.refine(options, std::move(tree));
     }
     begin = end + 1;
   }
