@@ -20,7 +20,7 @@ struct LargeLeaf {
 
   bool is_large(float area) const { return area >= least_area; }
   bool is_better_in_halves(float area, float area_of_halves) const {
-    return is_large(area) && area_of_halves <= most_in_halves * area;
+    return is_large(area) && area_of_halves < most_in_halves * area;
   }
 };
 

@@ -54,5 +54,19 @@ TEST(LargeLeaf, OnTopOfEachOther_AreOne) {
   }
 }
 
+TEST(LargeLeaf, SceneWithoutArea_HasFullLeaves) {
+  std::vector<Corners> points;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 point{static_cast<float>(i), 0, 0};
+    points.push_back({point, point, point});
+  }
+  const Triangles triangles("points on a line", std::move(points));
+  for (const std::string& pipeline : pipelines) {
+    const Tree tree = build_tree(pipeline, triangles);
+    const auto leaves = std::ranges::count_if(tree.nodes, [](const Tree::Node& node) { return node.is_leaf(); });
+    EXPECT_LE(leaves, 32) << pipeline;
+  }
+}
+
 }  // namespace
 }  // namespace boxwood

@@ -128,8 +128,8 @@ class IncomingRays {
  public:
   IncomingRays(std::span<const Ray> rays, const WideView& view) : rays_(rays), view_(view) {}
 
-  /// Takes free slots, eight at a time, for the next rays in front of the root of the tree. Rays that
-  /// `skip(slot, whether it is valid, index)` is true of are passed over.
+  /// Takes free slots, eight or all that are left at a time, for the next rays in front of the root of the tree. Rays
+  /// that `skip(slot, whether it is valid, index)` is true of are passed over.
   template <class Skip>
   HWY_INLINE void fill(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
     while (next_ < rays_.size() && free.size >= std::min<std::size_t>(8, rays_.size() - next_)) {

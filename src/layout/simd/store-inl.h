@@ -40,10 +40,8 @@ struct PlainStore {
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
     constexpr std::size_t node_bytes = sizeof(WideNode<N>), block_bytes = sizeof(LeafBlock<L>);
     const std::byte* place = view.base + std::size_t{reference} * 16;
-    if constexpr (node_bytes <= block_bytes) {
-      for (std::size_t at = 0; at < block_bytes; at += 64) __builtin_prefetch(place + at);
-    } else {
-      for (std::size_t at = 0; at < block_bytes; at += 64) __builtin_prefetch(place + at);
+    for (std::size_t at = 0; at < block_bytes; at += 64) __builtin_prefetch(place + at);
+    if constexpr (node_bytes > block_bytes) {
       // What only nodes have; of blocks the first lines again, without a branch.
       const std::byte* rest = place + (block_bytes >> (reference % 2 * 8));
       for (std::size_t at = 0; at < node_bytes - block_bytes; at += 64) __builtin_prefetch(rest + at);
