@@ -21,19 +21,15 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// What node and leaf steps read next, for trees that are not in the cache.
-template <class Store>
-HWY_INLINE void prefetch_next(const WideView& view, const std::uint32_t* next, std::uint32_t size) {
-  for (std::uint32_t i = 0; i < size; ++i) Store::prefetch(view, next[i]);
-}
-
-/// What a group of rays in flight needs next, and what its last pass found out.
+/// What the rays of a batch need next, and what the pass at work found out.
 struct Lists {
   enum class Pass { none, nodes, leaves, pops };
 
   SlotList nodes, leaves, pops, free;
-  alignas(64) std::uint32_t next[most_in_flight + 16];  // of the rays in the list that was passed last
-  Pass last = Pass::none;
+
+  /// Of the rays in the list at work; there is room for whole vectors behind the last, and for `Ahead` before the
+  /// first.
+  HWY_INLINE WideReference* next() { return next_ + room_before; }
 
   /// The longest list.
   HWY_INLINE Pass longest() const {
@@ -41,28 +37,43 @@ struct Lists {
     if (nodes.size >= leaves.size && nodes.size >= pops.size) return Pass::nodes;
     return pops.size >= leaves.size ? Pass::pops : Pass::leaves;
   }
+
+  static constexpr int room_before = 16;
+
+ private:
+  alignas(64) WideReference next_[room_before + most_in_flight + 16];
 };
 
-/// Two groups of rays take turns: what a pass over one has stored is in the cache when it is read, after a pass over
-/// the other. A load of many small stores that are still on their way would wait for all of them.
-inline constexpr int ray_groups = 2;
-
-/// Runs passes until no group has rays left. begin(lists) runs a pass over the longest list, end(lists) sorts what
-/// that pass found out.
-template <class Begin, class End>
-HWY_INLINE void take_turns(Lists (&groups)[ray_groups], Begin begin, End end) {
-  int at_work = ray_groups;
-  while (at_work > 0) {
-    at_work = 0;
-    for (Lists& lists : groups) {
-      end(lists);
-      lists.last = lists.longest();
-      if (lists.last == Lists::Pass::none) continue;
-      begin(lists);
-      ++at_work;
-    }
+/// Fetches what a pass puts at `next`, for trees that are not in the cache. In the pass's own loop, since the end of
+/// another would be mispredicted, but some steps behind, since what is not known yet would hold up what comes after it.
+template <class Store, bool Prefetch>
+class Ahead {
+ public:
+  HWY_INLINE Ahead(const WideView& view, WideReference* next) : view_(view), next_(next) {
+    if constexpr (Prefetch) std::fill_n(next - behind, behind, WideReference{0});
   }
-}
+  /// After a step that put something at next[i], ….
+  template <int Together>
+  HWY_INLINE void stepped(std::uint32_t i) const {
+    if constexpr (Prefetch) fetch<Together>(next_ + i);
+  }
+  /// After the last.
+  HWY_INLINE void finish(std::uint32_t size) const {
+    if constexpr (Prefetch) fetch<behind>(next_ + size);
+  }
+
+ private:
+  static constexpr int behind = 8;
+  static_assert(behind <= Lists::room_before);
+
+  template <int Count>
+  HWY_INLINE void fetch(const WideReference* end) const {
+    for (int i = 0; i < Count; ++i) Store::prefetch(view_, end[i - behind]);
+  }
+
+  const WideView& view_;
+  WideReference* next_;
+};
 
 /// Closest hits of a whole batch. Steps: how rays pass nodes.
 template <class Steps, bool Prefetch>
@@ -74,81 +85,106 @@ class ClosestBatch {
       : view_(view), rays_(rays), hits_(hits), slots_(memory, view.stack), incoming_(rays, view) {}
 
   void run() {
-    const int in_flight = slots_.in_flight();
-    for (int i = 0; i < in_flight; ++i) groups_[i % ray_groups].free.add(slots_.offset(i));
-    for (Lists& lists : groups_) load(lists);
-    take_turns(
-        groups_, [&](Lists& lists) { begin(lists); }, [&](Lists& lists) { end(lists); });
+    lists_.free.add_all(slots_);
+    load();
+    for (Lists::Pass longest = lists_.longest(); longest != Lists::Pass::none; longest = lists_.longest()) {
+      pass(longest);
+      sort_out(longest);
+    }
   }
 
  private:
   /// Puts the next rays that the lists can serve into free slots.
-  HWY_INLINE void load(Lists& lists) {
-    const auto skip = [&](const Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
+  HWY_INLINE void load() {
+    const auto skip = [&](Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
       __builtin_prefetch(&hits_[index], 1);
+      entries_of(ray)[stack_bottom] = {wide_finished, -1};
       // Keys order by their bits, which negative distances do not do.
       if (HWY_LIKELY(valid && ray.t_near >= 0)) return false;
       hits_[index] = closest_hit<Store>(view_, prepare(rays_[index], view_.reach), CountNothing{});
       return true;
     };
-    incoming_.fill(slots_, lists.free, lists.nodes, skip);
+    incoming_.fill(slots_, lists_.free, lists_.nodes, skip);
   }
 
-  void begin(Lists& lists) {
-    switch (lists.last) {
+  /// All rays of the longest list take a step.
+  HWY_NOINLINE void pass(Lists::Pass longest) {
+    switch (longest) {
       case Lists::Pass::nodes:
-        Steps::closest_pass(slots_, view_, lists.nodes, lists.next);
-        if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, lists.nodes.size);
-        break;
+        return pass_nodes(lists_.nodes);
       case Lists::Pass::leaves:
-        LeafSteps<Store>::closest_pass(slots_, view_, lists.leaves);
-        break;
+        return LeafSteps<Store>::closest_pass(slots_, view_, lists_.leaves);
       case Lists::Pass::pops:
-        for (std::uint32_t i = 0; i < lists.pops.size; ++i) {
-          lists.next[i] = pop_step(slots_.at(lists.pops.offsets[i]));
-        }
-        if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, lists.pops.size);
-        break;
+        return pass_pops(lists_.pops);
       case Lists::Pass::none:
-        break;
+        return;
     }
   }
 
-  void end(Lists& lists) {
-    if (lists.last == Lists::Pass::nodes) {
-      const std::uint32_t size = std::exchange(lists.nodes.size, 0);
-      split(lists.nodes.offsets, size, lists.next, lists.nodes, lists.leaves, lists.pops);
-    } else if (lists.last == Lists::Pass::leaves) {
-      append(lists.leaves, lists.pops);
-    } else if (lists.last == Lists::Pass::pops) {
-      const std::uint32_t size = std::exchange(lists.pops.size, 0);
-      const std::uint32_t free = lists.free.size;
-      split(lists.pops.offsets, size, lists.next, lists.nodes, lists.leaves, lists.free);
-      for (std::uint32_t i = free; i < lists.free.size; ++i) {
-        const Slot& slot = slots_.at(lists.free.offsets[i]);
-        hits_[slot.index] = slot.best;
-      }
-      load(lists);
+  HWY_INLINE void pass_nodes(SlotList& list) {
+    const WideView view = view_;
+    const Slots slots = slots_;
+    WideReference* const next = lists_.next();
+    const Ahead<Store, Prefetch> ahead(view, next);
+    list.repeat_last();
+    const std::uint32_t size = list.size;
+    const std::uint32_t* offsets = list.offsets;
+    std::uint32_t i = 0;
+    for (; i < size; i += Steps::together) {
+      Steps::closest(slots, view, offsets + i, next + i);
+      ahead.template stepped<Steps::together>(i);
     }
+    ahead.finish(i);
+  }
+
+  HWY_INLINE void pass_pops(const SlotList& list) {
+    const WideView view = view_;
+    const Slots slots = slots_;
+    const std::uint32_t size = list.size;
+    WideReference* const next = lists_.next();
+    const Ahead<Store, Prefetch> ahead(view, next);
+    for (std::uint32_t i = 0; i < size; ++i) {
+      next[i] = pop_step(slots.at(list.offsets[i]));
+      ahead.template stepped<1>(i);
+    }
+    ahead.finish(size);
+  }
+
+  /// Puts the rays that were in the longest list into those of what they need now, and those that are done out.
+  HWY_INLINE void sort_out(Lists::Pass longest) {
+    if (longest == Lists::Pass::leaves) return append(lists_.leaves, lists_.pops);
+    if (longest == Lists::Pass::nodes) {
+      const std::uint32_t size = std::exchange(lists_.nodes.size, 0);
+      return split(lists_.nodes.offsets, size, lists_.next(), lists_.nodes, lists_.leaves, lists_.pops);
+    }
+    const std::uint32_t size = std::exchange(lists_.pops.size, 0);
+    const std::uint32_t free = lists_.free.size;
+    split(lists_.pops.offsets, size, lists_.next(), lists_.nodes, lists_.leaves, lists_.free);
+    for (std::uint32_t i = free; i < lists_.free.size; ++i) {
+      const Slot& slot = slots_.at(lists_.free.offsets[i]);
+      hits_[slot.index] = slot.best;
+    }
+    load();
   }
 
   /// Takes the topmost entry that is not behind the limit, a register of them looked at at once.
-  HWY_INLINE WideReference pop_step(Slot& slot) {
-    using D = hn::CappedTag<std::int32_t, 8>;
-    const D d;
-    constexpr std::uint32_t lanes = lanes_of<D>;
-    const auto limit = hn::Set(d, Steps::key_limit(slot.t_limit));
-    const std::int32_t* keys = slots_.keys(slot);
+  static HWY_INLINE WideReference pop_step(Slot& slot) {
+    const hn::CappedTag<std::int64_t, 8> d;
+    constexpr auto lanes = static_cast<std::uint32_t>(lanes_of<decltype(d)>);
+    // Keys are the upper halves.
+    const auto limit = hn::Set(d, (std::int64_t{Steps::key_limit(slot.t_limit)} << 32) | 0xffffffff);
+    const StackEntry* const entries = entries_of(slot);
     std::uint32_t top = slot.top;
     std::uint32_t keep = 0;
     while (true) {
-      keep = ~bits_of(d, hn::Gt(hn::LoadU(d, keys + top - lanes), limit)) & ((1u << lanes) - 1);
+      const auto looked_at = hn::LoadU(d, reinterpret_cast<const std::int64_t*>(entries + top - lanes));
+      keep = ~bits_of(d, hn::Gt(looked_at, limit)) & ((1u << lanes) - 1);
       if (HWY_LIKELY(keep != 0)) break;
       top -= lanes;
     }
     top = top - lanes + static_cast<std::uint32_t>(std::bit_width(keep)) - 1;
     slot.top = top;
-    slot.next = slots_.references(slot)[top];
+    slot.next = entries[top].reference;
     return slot.next;
   }
 
@@ -157,7 +193,7 @@ class ClosestBatch {
   std::span<Hit> hits_;
   Slots slots_;
   IncomingRays<Store::row_bytes> incoming_;
-  Lists groups_[ray_groups];
+  Lists lists_;
 };
 
 /// Any hits of a whole batch: no order, no distances; the top of the stack is always what comes next.
@@ -170,50 +206,60 @@ class AnyBatch {
       : view_(view), blocked_(blocked), slots_(memory, view.stack), incoming_(rays, view) {}
 
   void run() {
-    const int in_flight = slots_.in_flight();
-    for (int i = 0; i < in_flight; ++i) groups_[i % ray_groups].free.add(slots_.offset(i));
-    for (Lists& lists : groups_) load(lists);
-    take_turns(
-        groups_, [&](Lists& lists) { begin(lists); }, [&](Lists& lists) { end(lists); });
+    lists_.free.add_all(slots_);
+    load();
+    while (true) {
+      const Lists::Pass longest = lists_.longest();
+      if (longest == Lists::Pass::none) return;
+      SlotList& list = longest == Lists::Pass::nodes ? lists_.nodes : lists_.leaves;
+      if (longest == Lists::Pass::nodes)
+        pass_nodes();
+      else
+        pass_leaves();
+      const std::uint32_t size = std::exchange(list.size, 0);
+      split(list.offsets, size, lists_.next(), lists_.nodes, lists_.leaves, lists_.free);
+      load();
+    }
   }
 
  private:
-  HWY_INLINE void load(Lists& lists) {
-    const auto skip = [&](const Slot&, bool valid, std::uint32_t index) HWY_ATTR {
+  HWY_INLINE void load() {
+    const auto skip = [&](Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
+      references_of(ray)[stack_bottom] = wide_finished;
       blocked_[index] = 0;
       return !valid;
     };
-    incoming_.fill(slots_, lists.free, lists.nodes, skip);
+    incoming_.fill(slots_, lists_.free, lists_.nodes, skip);
   }
 
-  void begin(Lists& lists) {
-    const bool at_nodes = lists.last == Lists::Pass::nodes;
-    if (at_nodes) {
-      Steps::any_pass(slots_, view_, lists.nodes, lists.next);
-    } else {
-      LeafSteps<Store>::any_pass(slots_, view_, lists.leaves, [&](std::uint32_t i, Slot& slot, bool found) HWY_ATTR {
-        blocked_[slot.index] = found ? 1 : 0;
-        slot.top -= found ? 0 : 1;
-        slot.next = slots_.references(slot)[slot.top];
-        lists.next[i] = found ? wide_finished : slot.next;
-      });
+  HWY_INLINE void pass_nodes() {
+    WideReference* const next = lists_.next();
+    const Ahead<Store, Prefetch> ahead(view_, next);
+    for (std::uint32_t i = 0; i < lists_.nodes.size; ++i) {
+      next[i] = Steps::any(view_, slots_.at(lists_.nodes.offsets[i]));
+      ahead.template stepped<1>(i);
     }
-    if constexpr (Prefetch) prefetch_next<Store>(view_, lists.next, at_nodes ? lists.nodes.size : lists.leaves.size);
+    ahead.finish(lists_.nodes.size);
   }
 
-  void end(Lists& lists) {
-    if (lists.last == Lists::Pass::none) return;
-    SlotList& from = lists.last == Lists::Pass::nodes ? lists.nodes : lists.leaves;
-    const std::uint32_t size = std::exchange(from.size, 0);
-    split(from.offsets, size, lists.next, lists.nodes, lists.leaves, lists.free);
-    load(lists);
+  HWY_INLINE void pass_leaves() {
+    WideReference* const next = lists_.next();
+    const Ahead<Store, Prefetch> ahead(view_, next);
+    LeafSteps<Store>::any_pass(slots_, view_, lists_.leaves, [&](std::uint32_t i, Slot& slot, bool found) HWY_ATTR {
+      blocked_[slot.index] = found ? 1 : 0;
+      slot.top -= found ? 0 : 1;
+      slot.next = references_of(slot)[slot.top];
+      next[i] = found ? wide_finished : slot.next;
+      ahead.template stepped<1>(i);
+    });
+    ahead.finish(lists_.leaves.size);
   }
 
   const WideView& view_;
   std::span<std::uint8_t> blocked_;
   Slots slots_;
   IncomingRays<Store::row_bytes> incoming_;
-  Lists groups_[ray_groups];
+  Lists lists_;
 };
 
 #endif  // HWY_MAX_BYTES >= 32

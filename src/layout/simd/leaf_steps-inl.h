@@ -108,20 +108,18 @@ struct PassHits {
   }
 };
 
-/// The first blocks of the leaves of a list of rays. An odd last ray is its own partner.
+/// The first blocks of the leaves of a list of rays.
 template <class Store>
 struct PassBlocks {
   const LeafBlock<8>* blocks[most_in_flight + 1];
   typename Store::BlockBuffer buffers[most_in_flight + 1];
   std::uint32_t more = 0;
 
-  HWY_INLINE PassBlocks(const Slots& slots, const WideView& view, SlotList& list) {
-    list.offsets[list.size] = list.offsets[list.size - 1];
-    for (std::uint32_t i = 0; i < list.size; ++i) {
-      blocks[i] = &Store::block(view, slots.at(list.offsets[i]).next, 0, buffers[i]);
-      more |= blocks[i]->primitives[0];
-    }
-    blocks[list.size] = blocks[list.size - 1];
+  /// That of the i-th ray.
+  HWY_INLINE const LeafBlock<8>& get(const Slots& slots, const WideView& view, const SlotList& list, std::uint32_t i) {
+    blocks[i] = &Store::block(view, slots.at(list.offsets[i]).next, 0, buffers[i]);
+    more |= blocks[i]->primitives[0];
+    return *blocks[i];
   }
 };
 
@@ -149,10 +147,11 @@ struct LeafSteps<Store, 8> {
   }
 
   static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list) {
-    const PassBlocks<Store> leaves(slots, view, list);
+    list.repeat_last();
+    PassBlocks<Store> leaves;
     PassHits hits;
     for (std::uint32_t i = 0; i < list.size; i += 2) {
-      const BlockPair pair{*leaves.blocks[i], *leaves.blocks[i + 1]};
+      const BlockPair pair{leaves.get(slots, view, list, i), leaves.get(slots, view, list, i + 1)};
       test(pair, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), i, hits);
     }
     for (std::uint32_t i = 0; i < hits.size; ++i) {
@@ -167,14 +166,15 @@ struct LeafSteps<Store, 8> {
   }
   template <class Decide>
   static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, Decide decide) {
-    const PassBlocks<Store> leaves(slots, view, list);
+    list.repeat_last();
+    PassBlocks<Store> leaves;
     const auto more_found = [&](std::uint32_t i, const Slot& slot) HWY_ATTR {
       return (leaves.blocks[i]->primitives[0] & more_blocks) != 0 && any_in_blocks<Store>(view, 1, slot);
     };
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       Slot& a = slots.at(list.offsets[i]);
       Slot& b = slots.at(list.offsets[i + 1]);
-      const BlockPair pair{*leaves.blocks[i], *leaves.blocks[i + 1]};
+      const BlockPair pair{leaves.get(slots, view, list, i), leaves.get(slots, view, list, i + 1)};
       const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
       bool found_a = (bits & 0xff) != 0, found_b = (bits & 0xff00) != 0;
       if (HWY_UNLIKELY((leaves.more & more_blocks) != 0)) {

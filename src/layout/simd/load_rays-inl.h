@@ -129,7 +129,7 @@ class IncomingRays {
   IncomingRays(std::span<const Ray> rays, const WideView& view) : rays_(rays), view_(view) {}
 
   /// Takes free slots, eight or all that are left at a time, for the next rays in front of the root of the tree. Rays
-  /// that `skip(slot, whether it is valid, index)` is true of are passed over.
+  /// that `skip(slot, whether it is valid, index)` is true of are passed over; it puts an end to the stack of others.
   template <class Skip>
   HWY_INLINE void fill(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
     while (next_ < rays_.size() && free.size >= std::min<std::size_t>(8, rays_.size() - next_)) {
@@ -156,8 +156,6 @@ class IncomingRays {
       slot.top = stack_bottom + 1;
       slot.best = Hit{};
       slot.index = static_cast<std::uint32_t>(next_);
-      slots.references(slot)[stack_bottom] = wide_finished;
-      slots.keys(slot)[stack_bottom] = -1;
       (skip(slot, (valid >> i & 1) != 0, slot.index) ? free : nodes).add(offset);
     }
   }

@@ -28,8 +28,14 @@ inline constexpr std::uint32_t stack_margin = 16;
 /// The bottom of every stack: below it are entries that are never reached.
 inline constexpr std::uint32_t stack_bottom = 8;
 
-/// What a ray in flight needs, by cache line: what node steps read, what leaf steps read. Its stack follows: keys, then
-/// references. A key is the entry distance as an integer with the lane in its low bits.
+/// A child on the stack of a ray in flight. Its key is the entry distance as an integer, with the lane in its low bits.
+struct alignas(8) StackEntry {
+  WideReference reference;
+  std::int32_t key;
+};
+
+/// What a ray in flight needs, by cache line: what node steps read, what leaf steps read. Its stack follows: entries,
+/// or references alone where it is only asked whether the ray is blocked.
 struct alignas(64) Slot {
   float inverse[3], near_offset[3], far_offset[3];
   float t_near;
@@ -44,15 +50,15 @@ struct alignas(64) Slot {
 };
 static_assert(sizeof(Slot) == 128);
 
-HWY_INLINE std::int32_t* keys_of(Slot& slot) { return reinterpret_cast<std::int32_t*>(&slot + 1); }
+HWY_INLINE StackEntry* entries_of(Slot& slot) { return reinterpret_cast<StackEntry*>(&slot + 1); }
+HWY_INLINE WideReference* references_of(Slot& slot) { return reinterpret_cast<WideReference*>(&slot + 1); }
 
 /// Slots side by side, each with room for a stack of `capacity` entries. The stride is an odd number of cache lines, so
 /// that slots do not compete for the same sets of the cache.
 class Slots {
  public:
   Slots(std::byte* memory, std::uint32_t stack) : memory_(memory) {
-    capacity_ = (stack + 2 * stack_margin + 15) & ~15u;
-    std::size_t lines = (sizeof(Slot) + capacity_ * std::size_t{8} + 63) / 64;
+    std::size_t lines = (sizeof(Slot) + (stack + 2 * stack_margin) * sizeof(StackEntry) + 63) / 64;
     lines |= 1;
     stride_ = lines * 64;
   }
@@ -64,14 +70,9 @@ class Slots {
   HWY_INLINE std::uint32_t offset(int index) const {
     return static_cast<std::uint32_t>(stride_) * static_cast<std::uint32_t>(index);
   }
-  HWY_INLINE std::int32_t* keys(Slot& slot) const { return keys_of(slot); }
-  HWY_INLINE WideReference* references(Slot& slot) const {
-    return reinterpret_cast<WideReference*>(keys_of(slot) + capacity_);
-  }
 
  private:
   std::byte* memory_;
-  std::uint32_t capacity_ = 0;
   std::size_t stride_ = 0;
 };
 
@@ -81,10 +82,18 @@ struct SlotList {
   std::uint32_t size = 0;
 
   HWY_INLINE void add(std::uint32_t offset) { offsets[size++] = offset; }
+  HWY_INLINE void add_all(const Slots& slots) {
+    for (int i = 0; i < slots.in_flight(); ++i) add(slots.offset(i));
+  }
+  /// Behind the end, so that an odd last one has a partner.
+  HWY_INLINE void repeat_last() { offsets[size] = offsets[size - 1]; }
 };
 
 HWY_INLINE void append(SlotList& from, SlotList& to) {
-  for (std::uint32_t i = 0; i < from.size; ++i) to.offsets[to.size + i] = from.offsets[i];
+  const WidestWords d;
+  for (std::uint32_t i = 0; i < from.size; i += lanes_of<WidestWords>) {
+    hn::StoreU(hn::Load(d, from.offsets + i), d, to.offsets + to.size + i);
+  }
   to.size += from.size;
   from.size = 0;
 }

@@ -27,10 +27,9 @@ struct Steps16 {
   using Words16 = hn::FixedTag<std::uint32_t, 16>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
 
-  /// Keys are above 0, which marks lanes that hold none.
-  static HWY_INLINE std::int32_t key_limit(float t_limit) { return (std::bit_cast<std::int32_t>(t_limit) | 15) + 16; }
+  static HWY_INLINE std::int32_t key_limit(float t_limit) { return std::bit_cast<std::int32_t>(t_limit) | 15; }
 
-  /// The children met, as keys in the first lanes; 0 in the others.
+  /// The children met, as keys in the first lanes; the least key there is in the others.
   struct Met {
     hn::Vec<Ints16> keys;
     std::uint32_t count;
@@ -38,7 +37,7 @@ struct Steps16 {
   static HWY_INLINE Met meet(const Node& node, const Slot& slot) {
     const Ints16 d;
     const BoxHits<Floats16> hits = node.hit(Floats16(), 0, slot);
-    const auto keys = hn::Add(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 16));
+    const auto keys = hn::Or(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 0));
     return {hn::Compress(keys, hn::RebindMask(d, hits.hit)),
             static_cast<std::uint32_t>(std::popcount(bits_of(Floats16(), hits.hit)))};
   }
@@ -49,26 +48,18 @@ struct Steps16 {
                                 hn::IndicesFromVec(d, hn::And(hn::BitCast(d, keys), hn::Set(d, 15))));
   }
 
-  /// Takes the top after `count` children were pushed; nothing when none was.
-  static HWY_INLINE WideReference take(const WideReference* references, std::uint32_t top, std::uint32_t count,
-                                       Slot& slot) {
-    const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
-    slot.top = top + count - some;
-    return slot.next = references[slot.top] & (0u - some);
-  }
-
   /// One ray that met more than eight children: rare, so that branches cost little.
-  static HWY_NOINLINE void push_many(const Slots& slots, const Node& node, hn::Vec<Ints16> met, std::uint32_t count,
-                                     Slot& slot) {
+  static HWY_NOINLINE void push_many(const WideView& view, Slot& slot) {
     const Ints16 d;
+    const Node node(view, slot.next);
+    const auto [met, count] = meet(node, slot);
     alignas(64) std::int32_t keys[16];
     alignas(64) WideReference children[16];
     hn::Store(met, d, keys);
     std::sort(keys, keys + count, std::greater<>());
     hn::Store(children_of(node, hn::Load(d, keys)), Words16(), children);
-    std::copy_n(keys, count, slots.keys(slot) + slot.top);
-    std::copy_n(children, count, slots.references(slot) + slot.top);
-    take(slots.references(slot), slot.top, count, slot);
+    for (std::uint32_t i = 0; i < count; ++i) entries_of(slot)[slot.top + i] = {children[i], keys[i]};
+    take(slot.top, count, slot);
   }
 
   template <int Most>
@@ -102,11 +93,9 @@ struct Steps16 {
   /// Puts the children that two rays met above the tops of their stacks, the nearest last: at most `Most` each, which
   /// is how many are stored.
   template <int Most>
-  static HWY_INLINE void push(const Slots& slots, const Node& node_a, const Node& node_b, hn::Vec<Ints16> met_a,
-                              hn::Vec<Ints16> met_b, Slot& a, Slot& b) {
+  static HWY_INLINE void push(const Node& node_a, const Node& node_b, hn::Vec<Ints16> met_a, hn::Vec<Ints16> met_b,
+                              StackEntry* a, StackEntry* b) {
     const hn::FixedTag<std::int32_t, 2 * Most> both;
-    const hn::Half<decltype(both)> each;
-    const hn::RebindToUnsigned<decltype(each)> words;
     const auto sorted = sort_each<Most>(both, hn::Combine(both, first<Most>(met_b), first<Most>(met_a)));
     // Of the children of both nodes, one after the other.
     const auto second_half = hn::And(hn::Iota(both, 0), hn::Set(both, Most));
@@ -114,51 +103,54 @@ struct Steps16 {
     const auto index = hn::Or(hn::And(sorted, hn::Set(both, 15)), hn::ShiftLeft<shift>(second_half));
     const auto children =
         of_both(node_a.children(Floats16(), 0), node_b.children(Floats16(), 0), hn::BitCast(Both<Most>(), index));
-    hn::StoreU(hn::LowerHalf(each, sorted), each, slots.keys(a) + a.top);
-    hn::StoreU(hn::UpperHalf(each, sorted), each, slots.keys(b) + b.top);
-    hn::StoreU(hn::LowerHalf(words, children), words, slots.references(a) + a.top);
-    hn::StoreU(hn::UpperHalf(words, children), words, slots.references(b) + b.top);
+    const Both<Most> words;
+    const auto keys = hn::BitCast(words, sorted);
+    if constexpr (Most == 8) {
+      const Words8 half;
+      store_eight(hn::LowerHalf(half, children), hn::LowerHalf(half, keys), a);
+      store_eight(hn::UpperHalf(half, children), hn::UpperHalf(half, keys), b);
+    } else {
+      const auto low = hn::InterleaveLower(words, children, keys), high = hn::InterleaveUpper(words, children, keys);
+      hn::StoreU(hn::ConcatLowerLower(words, high, low), words, reinterpret_cast<std::uint32_t*>(a));
+      hn::StoreU(hn::ConcatUpperUpper(words, high, low), words, reinterpret_cast<std::uint32_t*>(b));
+    }
   }
 
-  /// Two rays: each pushes all children it met, nearest on top, and takes the top. Both may be the same ray.
-  static HWY_INLINE void closest_pair(const Slots& slots, const WideView& view, Slot& a, Slot& b, std::uint32_t* next) {
+  /// Rays that take a step together. An odd last one is its own partner.
+  static constexpr std::uint32_t together = 2;
+
+  /// Two rays: each pushes all children it met, nearest on top, and takes the top.
+  static HWY_INLINE void closest(const Slots& slots, const WideView& view, const std::uint32_t* offsets,
+                                 WideReference* next) {
+    Slot &a = slots.at(offsets[0]), &b = slots.at(offsets[1]);
     const Node node_a(view, a.next), node_b(view, b.next);
     const Met met_a = meet(node_a, a), met_b = meet(node_b, b);
     if (HWY_UNLIKELY(std::max(met_a.count, met_b.count) > 8)) {
-      push_many(slots, node_a, met_a.keys, met_a.count, a);
-      if (&a != &b) push_many(slots, node_b, met_b.keys, met_b.count, b);
+      push_many(view, a);
+      if (&a != &b) push_many(view, b);
       next[0] = a.next;
       next[1] = b.next;
       return;
     }
+    // Read before anything is changed: both may be the same ray.
+    const std::uint32_t top_a = a.top, top_b = b.top;
+    StackEntry *const entries_a = entries_of(a) + top_a, *const entries_b = entries_of(b) + top_b;
     if (HWY_LIKELY(std::max(met_a.count, met_b.count) <= 4))
-      push<4>(slots, node_a, node_b, met_a.keys, met_b.keys, a, b);
+      push<4>(node_a, node_b, met_a.keys, met_b.keys, entries_a, entries_b);
     else
-      push<8>(slots, node_a, node_b, met_a.keys, met_b.keys, a, b);
-    const std::uint32_t top_b = b.top;  // read before a is changed, which may be the same
-    next[0] = take(slots.references(a), a.top, met_a.count, a);
-    next[1] = take(slots.references(b), top_b, met_b.count, b);
+      push<8>(node_a, node_b, met_a.keys, met_b.keys, entries_a, entries_b);
+    next[0] = take(top_a, met_a.count, a);
+    next[1] = take(top_b, met_b.count, b);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
-  static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
+  static HWY_INLINE WideReference any(const WideView& view, Slot& slot) {
     const Floats16 d;
     const Node node(view, slot.next);
     const auto hit = hn::RebindMask(Words16(), node.hit(d, 0, slot).hit);
-    WideReference* references = slots.references(slot);
+    WideReference* references = references_of(slot);
     slot.top += compress_store<Words16>(node.children(d, 0), hit, references + slot.top) - 1;
     return slot.next = references[slot.top];
-  }
-
-  static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    // An odd last ray is its own partner.
-    list.offsets[list.size] = list.offsets[list.size - 1];
-    for (std::uint32_t i = 0; i < list.size; i += 2) {
-      closest_pair(slots, view, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), next + i);
-    }
-  }
-  static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));
   }
 };
 
@@ -170,40 +162,33 @@ struct Steps16 {
 
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return EightChildren::key_limit(t_limit); }
 
+  static constexpr std::uint32_t together = 1;
+
   /// Each half in order, and the nearest of both on top.
-  static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
+  static HWY_INLINE void closest(const Slots& slots, const WideView& view, const std::uint32_t* offsets,
+                                 WideReference* next) {
     const EightChildren::Floats8 d;
+    Slot& slot = slots.at(*offsets);
     const OpenNode<Store> node(view, slot.next);
-    std::int32_t* keys = slots.keys(slot) + slot.top;
-    WideReference* references = slots.references(slot) + slot.top;
-    const std::uint32_t first = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), keys, references);
-    const std::uint32_t second =
-        EightChildren::push(node.hit(d, 8, slot), node.children(d, 8), keys + first, references + first);
+    StackEntry* const top = entries_of(slot) + slot.top;
+    const std::uint32_t first = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), top);
+    const std::uint32_t second = EightChildren::push(node.hit(d, 8, slot), node.children(d, 8), top + first);
     // The last of the first half and the last of all change places when the former is nearer. Where there is none, both
     // are the same.
     const int last = static_cast<int>(first + second) - 1, end_of_first = static_cast<int>(first) - 1;
-    const bool swap = (first != 0) & (second != 0) & (keys[end_of_first] < keys[last]);
-    const int other = swap ? end_of_first : last;
-    std::swap(keys[other], keys[last]);
-    std::swap(references[other], references[last]);
-    return EightChildren::take(slots.references(slot), first + second, slot);
+    const bool swap = (first != 0) & (second != 0) & (top[end_of_first].key < top[last].key);
+    std::swap(top[swap ? end_of_first : last], top[last]);
+    *next = take(slot.top, first + second, slot);
   }
 
-  static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
+  static HWY_INLINE WideReference any(const WideView& view, Slot& slot) {
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
     const auto met = [&](int begin) { return hn::RebindMask(Words8(), node.hit(d, begin, slot).hit); };
-    WideReference* references = slots.references(slot);
+    WideReference* references = references_of(slot);
     slot.top += compress_store(node.children(d, 0), met(0), references + slot.top);
     slot.top += compress_store(node.children(d, 8), met(8), references + slot.top) - 1;
     return slot.next = references[slot.top];
-  }
-
-  static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = closest(slots, view, slots.at(list.offsets[i]));
-  }
-  static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));
   }
 };
 

@@ -17,16 +17,23 @@ namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
 /// What one register does: eight children of a node.
+/// Writes eight entries.
+HWY_INLINE void store_eight(hn::Vec<Words8> references, hn::Vec<Words8> keys, StackEntry* place) {
+  const Words8 d;
+  const auto low = hn::InterleaveLower(d, references, keys), high = hn::InterleaveUpper(d, references, keys);
+  auto* const words = reinterpret_cast<std::uint32_t*>(place);
+  hn::StoreU(hn::ConcatLowerLower(d, high, low), d, words);
+  hn::StoreU(hn::ConcatUpperUpper(d, high, low), d, words + 8);
+}
+
 struct EightChildren {
   using Floats8 = hn::FixedTag<float, 8>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
 
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return std::bit_cast<std::int32_t>(t_limit) | 7; }
 
-  /// Stores eight children from the top of the stack on, those met first, the nearest of them last. Returns how many
-  /// were met.
-  static HWY_INLINE std::uint32_t push(const BoxHits<Floats8>& hits, hn::Vec<Words8> children, std::int32_t* keys,
-                                       WideReference* references) {
+  /// Stores eight children at the top of a stack, those met first, the nearest of them last. Returns how many were met.
+  static HWY_INLINE std::uint32_t push(const BoxHits<Floats8>& hits, hn::Vec<Words8> children, StackEntry* top) {
     const Ints8 di;
     const Words8 dw;
     // Missed children become the least of all keys: they end behind the others and are never read.
@@ -34,18 +41,17 @@ struct EightChildren {
     const auto miss = hn::Set(di, std::numeric_limits<std::int32_t>::min());
     const auto sorted = sort8_descending(di, hn::IfThenElse(hn::RebindMask(di, hits.hit), key, miss));
     const auto lanes = hn::IndicesFromVec(dw, hn::BitCast(dw, hn::And(sorted, hn::Set(di, 7))));
-    hn::StoreU(sorted, di, keys);
-    hn::StoreU(hn::TableLookupLanes(children, lanes), dw, references);
+    store_eight(hn::TableLookupLanes(children, lanes), hn::BitCast(dw, sorted), top);
     return static_cast<std::uint32_t>(std::popcount(bits_of(Floats8(), hits.hit)));
   }
-
-  /// Takes the top after `count` children were pushed; nothing when none was.
-  static HWY_INLINE WideReference take(const WideReference* references, std::uint32_t count, Slot& slot) {
-    const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
-    slot.top += count - some;
-    return slot.next = references[slot.top] & (0u - some);
-  }
 };
+
+/// Takes the top after `count` children were pushed at `top`; nothing when none was.
+HWY_INLINE WideReference take(std::uint32_t top, std::uint32_t count, Slot& slot) {
+  const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
+  slot.top = top + count - some;
+  return slot.next = entries_of(slot)[slot.top].reference & (0u - some);
+}
 
 template <class StoreType>
 struct Steps8 {
@@ -53,32 +59,28 @@ struct Steps8 {
 
   static HWY_INLINE std::int32_t key_limit(float t_limit) { return EightChildren::key_limit(t_limit); }
 
+  /// Rays that take a step together.
+  static constexpr std::uint32_t together = 1;
+
   /// Pushes all children met, nearest on top, and takes the top; nothing when none was met. One step of some 80
   /// instructions: cut into three shorter passes it was a tenth slower.
-  static HWY_INLINE WideReference closest(const Slots& slots, const WideView& view, Slot& slot) {
+  static HWY_INLINE void closest(const Slots& slots, const WideView& view, const std::uint32_t* offsets,
+                                 WideReference* next) {
+    Slot& slot = slots.at(*offsets);
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
-    WideReference* references = slots.references(slot);
-    const std::uint32_t count = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0),
-                                                    slots.keys(slot) + slot.top, references + slot.top);
-    return EightChildren::take(references, count, slot);
+    const std::uint32_t top = slot.top;
+    *next = take(top, EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), entries_of(slot) + top), slot);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
-  static HWY_INLINE WideReference any(const Slots& slots, const WideView& view, Slot& slot) {
+  static HWY_INLINE WideReference any(const WideView& view, Slot& slot) {
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
     const auto hits = node.hit(d, 0, slot);
-    WideReference* references = slots.references(slot);
+    WideReference* references = references_of(slot);
     slot.top += compress_store(node.children(d, 0), hn::RebindMask(Words8(), hits.hit), references + slot.top) - 1;
     return slot.next = references[slot.top];
-  }
-
-  static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = closest(slots, view, slots.at(list.offsets[i]));
-  }
-  static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, std::uint32_t* next) {
-    for (std::uint32_t i = 0; i < list.size; ++i) next[i] = any(slots, view, slots.at(list.offsets[i]));
   }
 };
 
