@@ -246,10 +246,13 @@ class AnyBatch {
     WideReference* const next = lists_.next();
     const Ahead<Store, Prefetch> ahead(view_, next);
     LeafSteps<Store>::any_pass(slots_, view_, lists_.leaves, [&](std::uint32_t i, Slot& slot, bool found) HWY_ATTR {
-      blocked_[slot.index] = found ? 1 : 0;
-      slot.top -= found ? 0 : 1;
+      // Arithmetic, lest the compiler make a branch that goes as the hits do.
+      static_assert(wide_finished == 1);
+      const auto done = static_cast<std::uint32_t>(found);
+      blocked_[slot.index] = static_cast<std::uint8_t>(done);
+      slot.top += done - 1;
       slot.next = references_of(slot)[slot.top];
-      next[i] = found ? wide_finished : slot.next;
+      next[i] = (slot.next & (done - 1)) | done;
       ahead.template stepped<1>(i);
     });
     ahead.finish(lists_.leaves.size);

@@ -1,5 +1,5 @@
-// Sixty-four rays side by side, eight to a register, prepared together. Compiled once per instruction set that has
-// eight lanes.
+// Sixty-four rays side by side, a register of them at a time, prepared together. Compiled once per instruction set that
+// has eight lanes.
 #if defined(BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H
 #undef BOXWOOD_LAYOUT_SIMD_RAY_GROUP_INL_H
@@ -29,8 +29,6 @@ inline constexpr int group_vectors = static_cast<int>(group_size) / group_lanes;
 struct alignas(64) GroupFloats {
   float lanes[group_vectors][group_lanes];
 
-  /// Eight rays from the eighth part `part` on.
-  HWY_INLINE float* eight(int part) { return &lanes[0][0] + part * 8; }
   /// Of one ray.
   HWY_INLINE float& of(int ray) { return (&lanes[0][0])[ray]; }
   HWY_INLINE float of(int ray) const { return (&lanes[0][0])[ray]; }
@@ -92,21 +90,61 @@ HWY_INLINE float largest_of(const GroupFloats& values) {
   return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
-/// Eight rays, transposed and prepared. False when one of them is outside the limits of `Ray` or not of the class.
-HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int part, RayGroup& group) {
-  const hn::FixedTag<float, 8> d;
-  using V = hn::Vec<decltype(d)>;
-  // Fields come as origin and direction of a ray in turn: {o0 d0 o1 d1 o2 d2 o3 d3}.
-  V low[4], high[4];
-  const float* values = &rays[0].origin.x;
-  hn::LoadInterleaved4(d, values, low[0], low[1], low[2], low[3]);
-  hn::LoadInterleaved4(d, values + 32, high[0], high[1], high[2], high[3]);
-  V origin[3], direction[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    origin[axis] = hn::ConcatEven(d, high[axis], low[axis]);
-    direction[axis] = hn::ConcatOdd(d, high[axis], low[axis]);
+/// A register of rays, one field in each.
+struct GroupRays {
+  using V = hn::Vec<GroupLanes>;
+  V origin[3], direction[3], t_near, t_far;
+
+  HWY_INLINE explicit GroupRays(const Ray* rays) {
+    const float* values = &rays[0].origin.x;
+    V low[4], high[4];  // by coordinate, origins and directions of half the rays
+    load_half(values, low);
+    load_half(values + 4 * group_lanes, high);
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] = origins(low[axis], high[axis]);
+      direction[axis] = directions(low[axis], high[axis]);
+    }
+    t_near = origins(low[3], high[3]);
+    t_far = directions(low[3], high[3]);
   }
-  const V t_near = hn::ConcatEven(d, high[3], low[3]), t_far = hn::ConcatOdd(d, high[3], low[3]);
+
+ private:
+#if HWY_TARGET <= HWY_AVX3
+  static HWY_INLINE void load_half(const float* values, V (&out)[4]) {
+    const GroupLanes d;
+    const hn::Half<GroupLanes> half;
+    const hn::Repartition<double, GroupLanes> pairs;
+    V rays[4];  // the i-th and the one four behind it
+    for (int i = 0; i < 4; ++i) {
+      rays[i] = hn::Combine(d, hn::LoadU(half, values + 8 * (i + 4)), hn::LoadU(half, values + 8 * i));
+    }
+    for (int coordinate = 0; coordinate < 4; coordinate += 2) {
+      const auto two = [&](int i) HWY_ATTR {
+        return hn::BitCast(pairs, coordinate == 0 ? hn::InterleaveLower(d, rays[i], rays[i + 1])
+                                                  : hn::InterleaveUpper(d, rays[i], rays[i + 1]));
+      };
+      out[coordinate] = hn::BitCast(d, hn::InterleaveLower(pairs, two(0), two(2)));
+      out[coordinate + 1] = hn::BitCast(d, hn::InterleaveUpper(pairs, two(0), two(2)));
+    }
+  }
+  static HWY_INLINE V origins(V low, V high) { return V{_mm512_shuffle_f32x4(low.raw, high.raw, 0x88)}; }
+  static HWY_INLINE V directions(V low, V high) { return V{_mm512_shuffle_f32x4(low.raw, high.raw, 0xdd)}; }
+#else
+  /// Lanes are origin and direction of a ray in turn.
+  static HWY_INLINE void load_half(const float* values, V (&out)[4]) {
+    hn::LoadInterleaved4(GroupLanes(), values, out[0], out[1], out[2], out[3]);
+  }
+  static HWY_INLINE V origins(V low, V high) { return hn::ConcatEven(GroupLanes(), high, low); }
+  static HWY_INLINE V directions(V low, V high) { return hn::ConcatOdd(GroupLanes(), high, low); }
+#endif
+};
+
+/// Prepares the rays of one register. False when one of them is outside the limits of `Ray` or not of the class.
+HWY_INLINE bool prepare_register(const Ray* rays, float reach, int g, RayGroup& group) {
+  const GroupLanes d;
+  using V = hn::Vec<GroupLanes>;
+  const GroupRays in(rays);
+  const auto& [origin, direction, t_near, t_far] = in;
 
   const V limit = hn::Set(d, largest_coordinate);
   const V dominant = hn::Abs(direction[group.kz]);
@@ -132,15 +170,15 @@ HWY_INLINE bool prepare_eight(const Ray* rays, float reach, int part, RayGroup& 
     const V inverse = hn::Div(one, hn::CopySignToAbs(size, direction[axis]));
     const V center = hn::Mul(origin[axis], inverse);
     const V slack = hn::Mul(bound, hn::Abs(inverse));
-    hn::Store(origin[axis], d, group.origin[axis].eight(part));
-    hn::Store(inverse, d, group.inverse[axis].eight(part));
-    hn::Store(hn::Add(center, slack), d, group.near_offset[axis].eight(part));
-    hn::Store(hn::Sub(center, slack), d, group.far_offset[axis].eight(part));
+    hn::Store(origin[axis], d, group.origin[axis].lanes[g]);
+    hn::Store(inverse, d, group.inverse[axis].lanes[g]);
+    hn::Store(hn::Add(center, slack), d, group.near_offset[axis].lanes[g]);
+    hn::Store(hn::Sub(center, slack), d, group.far_offset[axis].lanes[g]);
   }
-  hn::Store(t_near, d, group.t_near.eight(part));
-  hn::Store(t_far, d, group.t_limit.eight(part));
-  hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.eight(part));
-  hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.eight(part));
+  hn::Store(t_near, d, group.t_near.lanes[g]);
+  hn::Store(t_far, d, group.t_limit.lanes[g]);
+  hn::Store(hn::Div(direction[group.kx], direction[group.kz]), d, group.shear_x.lanes[g]);
+  hn::Store(hn::Div(direction[group.ky], direction[group.kz]), d, group.shear_y.lanes[g]);
   return true;
 }
 
@@ -154,8 +192,8 @@ HWY_INLINE bool prepare_group(std::span<const Ray> rays, float reach, bool likel
   group.ky = group.kx == 2 ? 0 : group.kx + 1;
   for (int axis = 0; axis < 3; ++axis)
     group.negative[axis] = std::signbit(first[static_cast<std::size_t>(axis)]) ? 1 : 0;
-  for (int part = 0; part < 8; ++part) {
-    if (!prepare_eight(rays.data() + part * 8, reach, part, group)) return false;
+  for (int g = 0; g < group_vectors; ++g) {
+    if (!prepare_register(rays.data() + g * group_lanes, reach, g, group)) return false;
   }
   for (int side = 0; side < 2; ++side) {
     const GroupFloats& shear = side == 0 ? group.shear_x : group.shear_y;
