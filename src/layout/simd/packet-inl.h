@@ -148,7 +148,8 @@ HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, Find fin
       if (view.out_of_cache) Store::prefetch(view, node.children[lane]);
       const PostponedBox next{entries[lane], node.children[lane], current, static_cast<std::uint32_t>(lane)};
       PostponedBox* place = top++;
-      for (; place != bottom && place[-1].entry < next.entry; --place) *place = place[-1];
+      if constexpr (Find::ordered)
+        for (; place != bottom && place[-1].entry < next.entry; --place) *place = place[-1];
       *place = next;
     }
     while (true) {
