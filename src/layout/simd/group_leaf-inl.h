@@ -196,7 +196,7 @@ struct ClosestOfGroup {
   /// What a group may cost, in node steps, before its rays are better off one by one. The steps that 64 rays in flight
   /// take together are some 15 to 25 times as many.
   static constexpr int budget = 640;
-  static constexpr bool ordered = true;
+  static constexpr bool ordered = true;  ///< nearest children first
 
   RayGroup& group;
   GroupHits& best;
@@ -274,8 +274,8 @@ struct ClosestOfGroup {
 /// What a group finds out at a block: which rays are blocked. Such a ray gets a limit before its beginning and so meets
 /// nothing more. Both ways return true when one was.
 struct AnyOfGroup {
-  static constexpr bool ordered = false;
-  static constexpr int budget = 160;  ///< less than for closest hits: a stream takes rays that share little
+  static constexpr int budget = 160;      ///< less than for closest hits: a stream takes rays that share little
+  static constexpr bool ordered = false;  ///< children as stored, the last first
   static constexpr float done = -std::numeric_limits<float>::infinity();
 
   RayGroup& group;

@@ -123,9 +123,9 @@ HWY_INLINE bool visit_leaf(const WideView& view, const RayGroup& group, const Gr
   return changed;
 }
 
-/// Walks the tree for a group, nearest children first, and lets `find` have the triangles that a ray may meet. False
-/// when the budget ran out: the rays lie so far apart, for triangles of this size, that they share little, and the walk
-/// is not complete.
+/// Walks the tree for a group, children in the order that `find` wants, and lets it have the triangles that a ray may
+/// meet. False when the budget ran out: the rays lie so far apart, for triangles of this size, that they share little,
+/// and the walk is not complete.
 template <class Store, class Find>
 HWY_INLINE bool walk_group(const WideView& view, const RayGroup& group, Find find) {
   constexpr int N = Store::children;
