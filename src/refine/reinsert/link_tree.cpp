@@ -1,8 +1,11 @@
 #include "refine/reinsert/link_tree.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "tree/assemble.h"
 #include "tree/child_axis.h"
@@ -10,41 +13,76 @@
 namespace boxwood {
 namespace {
 
+/// Takes chunks of the array of nodes side by side.
 class Linker {
  public:
-  explicit Linker(const Tree& tree) : tree_(tree), number_(tree.nodes.size()) {}
+  explicit Linker(const Tree& tree)
+      : tree_(tree), number_(tree.nodes.size()), before_((tree.nodes.size() + chunk - 1) / chunk + 1) {}
 
   LinkTree run() {
-    // Inner nodes are numbered in the order of the array; those that replace wide nodes follow.
-    std::uint32_t leaves = 0;
-    for (std::size_t i = 0; i < number_.size(); ++i) {
-      const bool leaf = tree_.nodes[i].is_leaf();
-      number_[i] = leaf ? 0 : next_inner_++;
-      leaves += leaf ? 1 : 0;
+    for_each_chunk([&](std::size_t c) { before_[c + 1] = count(c); });
+    for (std::size_t c = 1; c < before_.size(); ++c) {
+      before_[c].inner += before_[c - 1].inner;
+      before_[c].halves += before_[c - 1].halves;
     }
+    for_each_chunk([&](std::size_t c) { number(c); });
     links_.root_bounds = tree_.nodes.front().bounds;
-    links_.inner.resize(leaves - 1);
+    links_.inner.resize(before_.back().inner + before_.back().halves);
     links_.inner.front().up = LinkTree::no_edge;
-    for (std::size_t i = 0; i < number_.size(); ++i) {
-      const Tree::Node& node = tree_.nodes[i];
-      if (!node.is_leaf()) halve(number_[i], node.first, node.first + node.count);
-    }
+    for_each_chunk([&](std::size_t c) { hang_children(c); });
     return std::move(links_);
   }
 
  private:
-  /// Hangs the nodes [first, last) below `inner`, at least two. Returns their common box. Recursion is logarithmic.
-  Box halve(std::uint32_t inner, std::uint32_t first, std::uint32_t last) {
-    const std::uint32_t middle = first + (last - first + 1) / 2;
-    return unite(hang(inner * 2, first, middle), hang(inner * 2 + 1, middle, last));
+  static constexpr std::size_t chunk = std::size_t{1} << 13;
+  /// Inner nodes, numbered in the order of the array, and those that replace wide nodes, which follow.
+  struct Counts {
+    std::uint32_t inner = 0, halves = 0;
+  };
+
+  template <class Function>
+  void for_each_chunk(const Function& function) const {
+    tbb::parallel_for(std::size_t{0}, before_.size() - 1, function);
+  }
+  std::size_t end_of(std::size_t c) const { return std::min((c + 1) * chunk, number_.size()); }
+
+  Counts count(std::size_t c) const {
+    Counts out;
+    for (std::size_t i = c * chunk; i < end_of(c); ++i) {
+      if (tree_.nodes[i].is_leaf()) continue;
+      ++out.inner;
+      out.halves += tree_.nodes[i].count - 2;
+    }
+    return out;
   }
 
-  Box hang(Edge edge, std::uint32_t first, std::uint32_t last) {
+  void number(std::size_t c) {
+    std::uint32_t next = before_[c].inner;
+    for (std::size_t i = c * chunk; i < end_of(c); ++i) number_[i] = tree_.nodes[i].is_leaf() ? 0 : next++;
+  }
+
+  void hang_children(std::size_t c) {
+    std::uint32_t next = before_.back().inner + before_[c].halves;
+    for (std::size_t i = c * chunk; i < end_of(c); ++i) {
+      const Tree::Node& node = tree_.nodes[i];
+      if (!node.is_leaf()) halve(number_[i], node.first, node.first + node.count, next);
+    }
+  }
+
+  /// Hangs the nodes [first, last) below `inner`, at least two. Returns their common box. Takes numbers from `next` on.
+  /// Recursion is logarithmic.
+  Box halve(std::uint32_t inner, std::uint32_t first, std::uint32_t last, std::uint32_t& next) {
+    const std::uint32_t middle = first + (last - first + 1) / 2;
+    const Box left = hang(inner * 2, first, middle, next);
+    return unite(left, hang(inner * 2 + 1, middle, last, next));
+  }
+
+  Box hang(Edge edge, std::uint32_t first, std::uint32_t last, std::uint32_t& next) {
     Child child{number_[first]};
     Box bounds = tree_.nodes[first].bounds;
     if (last - first > 1) {
-      child.bits = next_inner_++;
-      bounds = halve(child.bits, first, last);
+      child.bits = next++;
+      bounds = halve(child.bits, first, last, next);
     } else if (tree_.nodes[first].is_leaf()) {
       child.bits = first | Child::leaf_bit;
     }
@@ -56,7 +94,7 @@ class Linker {
 
   const Tree& tree_;
   LargeVector<std::uint32_t> number_;
-  std::uint32_t next_inner_ = 0;
+  std::vector<Counts> before_;  ///< of each chunk, and of all
   LinkTree links_;
 };
 
