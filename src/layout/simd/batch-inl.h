@@ -52,7 +52,7 @@ class Ahead {
   HWY_INLINE Ahead(const WideView& view, WideReference* next) : view_(view), next_(next) {
     if constexpr (Prefetch) std::fill_n(next - behind, behind, WideReference{0});
   }
-  /// After a step that put something at next[i], ….
+  /// After a step that put something at next[i], and at what follows if rays take steps together.
   template <int Together>
   HWY_INLINE void stepped(std::uint32_t i) const {
     if constexpr (Prefetch) fetch<Together>(next_ + i);
@@ -122,6 +122,7 @@ class ClosestBatch {
   }
 
   HWY_INLINE void pass_nodes(SlotList& list) {
+    // Copies stay in registers; members would be read again after every store of a step.
     const WideView view = view_;
     const Slots slots = slots_;
     WideReference* const next = lists_.next();
@@ -138,7 +139,7 @@ class ClosestBatch {
   }
 
   HWY_INLINE void pass_pops(const SlotList& list) {
-    const WideView view = view_;
+    const WideView view = view_;  // copies, as above
     const Slots slots = slots_;
     const std::uint32_t size = list.size;
     WideReference* const next = lists_.next();

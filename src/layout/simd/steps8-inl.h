@@ -16,7 +16,6 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// What one register does: eight children of a node.
 /// Writes eight entries.
 HWY_INLINE void store_eight(hn::Vec<Words8> references, hn::Vec<Words8> keys, StackEntry* place) {
   const Words8 d;
@@ -26,6 +25,7 @@ HWY_INLINE void store_eight(hn::Vec<Words8> references, hn::Vec<Words8> keys, St
   hn::StoreU(hn::ConcatUpperUpper(d, high, low), d, words + 8);
 }
 
+/// What one register does: eight children of a node.
 struct EightChildren {
   using Floats8 = hn::FixedTag<float, 8>;
   using Ints8 = hn::FixedTag<std::int32_t, 8>;
