@@ -91,7 +91,12 @@ std::vector<Comparison> bench_tracing(const BenchOptions& options) {
 std::vector<PeerBench> bench_peer(const BenchOptions& options) {
   PeerBenchSettings settings;
   settings.scenes = peer_scenes(options.scenes, options.quick);
-  if (options.quick) settings.repeats = 3, settings.build_repeats = 3, settings.side = 32, settings.most_rays = 1024;
+  if (options.quick) {
+    settings.repeats = 3;
+    settings.least_build_seconds = 0;
+    settings.side = 32;
+    settings.most_rays = 1024;
+  }
   std::vector<PeerBench> out;
   for (const unsigned threads : {1u, 0u}) {
     settings.threads = threads;

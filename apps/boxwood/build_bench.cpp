@@ -31,17 +31,11 @@ Estimate ns_per_triangle(const std::vector<double>& seconds, double triangles) {
 
 double build_seconds(const Scene& scene, const Recipe& recipe, Clock clock) {
   const double begin = now(clock);
-  std::shared_ptr<const Layout> layout;
-  if (is_peer(recipe)) {
-    const StageCall& peer = recipe.stages().front();
-    layout = peer.stage->trace_peer(peer.options, scene);
-  } else {
-    const Pipeline pipeline(recipe);
-    const MeshGeometry geometry(scene.meshes.front());
-    Contents contents;
-    contents.mesh = &scene.meshes.front();
-    layout = pipeline.encode(pipeline.tree({geometry.references(), &geometry}), contents);
-  }
+  const Pipeline pipeline(recipe);
+  const MeshGeometry geometry(scene.meshes.front());
+  Contents contents;
+  contents.mesh = &scene.meshes.front();
+  const auto layout = pipeline.encode(pipeline.tree({geometry.references(), &geometry}), contents);
   return now(clock) - begin;
 }
 
@@ -51,9 +45,8 @@ BuildBench bench_builds(const BuildBenchSettings& settings, ProgressSink& progre
   std::vector<NamedContestant> contestants = contestants_of(scene, settings.recipes, settings.threads);
   const std::size_t ours = contestants.size();
   if (settings.peers) {
-    for (auto& peer : contestants_of(scene, {"embree(quality=low)", "embree(quality=medium)"}, settings.threads)) {
+    for (auto& peer : embree_commits(scene, {"low", "medium"}, settings.threads))
       contestants.push_back(std::move(peer));
-    }
     for (auto& peer : embree_builders(scene, settings.threads)) contestants.push_back(std::move(peer));
   }
   std::vector<Contestant> runs;

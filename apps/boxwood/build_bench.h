@@ -37,7 +37,7 @@ struct BuildBenchSettings {
 };
 
 /// What build() times, on a clock of our choice: from triangles to a structure that can be traced. The scene has one
-/// mesh; the recipe may be a peer's.
+/// mesh; the recipe is not a peer's.
 double build_seconds(const Scene& scene, const Recipe& recipe, Clock clock);
 
 /// Contestants take turns; each builds the scene's first mesh. Time as clock_for() says. Peak memory is taken in a

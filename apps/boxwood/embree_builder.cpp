@@ -2,9 +2,11 @@
 
 #ifdef BOXWOOD_EMBREE
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <memory>
 
+#include "embree_calls.h"
 #include "structure/mesh_geometry.h"
 #include "workspace.h"
 
@@ -70,6 +72,23 @@ double build_once(const Scene& scene, Clock clock) {
 
 }  // namespace
 
+std::vector<NamedContestant> embree_commits(const Scene& scene, const std::vector<std::string>& qualities,
+                                            unsigned threads) {
+  const std::shared_ptr<RTCDeviceTy> device(
+      rtcNewDevice(threads == 0 ? nullptr : fmt::format("threads={}", threads).c_str()), rtcReleaseDevice);
+  std::vector<NamedContestant> out;
+  for (const std::string& name : qualities) {
+    const RTCBuildQuality quality = name == "low"      ? RTC_BUILD_QUALITY_LOW
+                                    : name == "medium" ? RTC_BUILD_QUALITY_MEDIUM
+                                                       : RTC_BUILD_QUALITY_HIGH;
+    out.push_back(
+        {fmt::format("embree(quality={})", name), [&scene, threads, device, quality] {
+           return EmbreeScene(device.get(), scene.meshes.front(), quality, clock_for(threads)).build_seconds();
+         }});
+  }
+  return out;
+}
+
 std::vector<NamedContestant> embree_builders(const Scene& scene, unsigned threads) {
   return {{"rtcBuildBVH",
            [&scene, threads] { return run_in_arena(threads, [&] { return build_once(scene, clock_for(threads)); }); }}};
@@ -81,6 +100,7 @@ std::vector<NamedContestant> embree_builders(const Scene& scene, unsigned thread
 
 namespace boxwood::cli {
 
+std::vector<NamedContestant> embree_commits(const Scene&, const std::vector<std::string>&, unsigned) { return {}; }
 std::vector<NamedContestant> embree_builders(const Scene&, unsigned) { return {}; }
 
 }  // namespace boxwood::cli

@@ -133,7 +133,8 @@ void trace_any(RTCScene scene, RTCIntersectContext* context, EmbreeCall call, st
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality) : scene_(rtcNewScene(device)) {
+EmbreeScene::EmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality, Clock clock)
+    : scene_(rtcNewScene(device)) {
   rtcSetSceneBuildQuality(scene_, quality);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetGeometryBuildQuality(geometry, quality);
@@ -144,11 +145,13 @@ EmbreeScene::EmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality qua
   if (positions && triangles) {
     std::ranges::copy(mesh.positions, static_cast<Vec3*>(positions));
     std::ranges::copy(mesh.triangles, static_cast<Triangle*>(triangles));
-    rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
   }
-  rtcReleaseGeometry(geometry);
+  const double begin = now(clock);
+  rtcCommitGeometry(geometry);
   rtcCommitScene(scene_);
+  build_seconds_ = now(clock) - begin;
+  rtcReleaseGeometry(geometry);
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
     rtcReleaseScene(scene_);
     throw Error("Embree could not build the scene, most likely for lack of memory; take a smaller one");

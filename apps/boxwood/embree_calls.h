@@ -10,6 +10,7 @@
 
 #include "boxwood/ray_set.h"
 #include "boxwood/scene.h"
+#include "measure/clock.h"
 
 namespace boxwood::cli {
 
@@ -21,7 +22,7 @@ inline constexpr std::array<std::string_view, 5> embree_call_names = {"single", 
 /// One mesh, built with one quality, not robust. Throws Error when Embree refuses.
 class EmbreeScene {
  public:
-  EmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality);
+  EmbreeScene(RTCDevice device, const Mesh& mesh, RTCBuildQuality quality, Clock clock = Clock::wall);
   ~EmbreeScene() { rtcReleaseScene(scene_); }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -30,8 +31,12 @@ class EmbreeScene {
   /// t_far on a miss; of any-hit rays -infinity when blocked.
   void trace(const RaySet& set, std::size_t begin, std::size_t end, EmbreeCall call, std::span<float> t) const;
 
+  /// What committing took, by the clock, once the triangles were in Embree's buffers.
+  double build_seconds() const { return build_seconds_; }
+
  private:
   RTCScene scene_;
+  double build_seconds_ = 0;
 };
 
 }  // namespace boxwood::cli

@@ -17,6 +17,7 @@
 #include "embree_calls.h"
 #include "measure/interleave.h"
 #include "recipe/stage.h"
+#include "render/ray_sets.h"
 #include "workspace.h"
 
 namespace boxwood::cli {
@@ -36,24 +37,6 @@ struct Tracers {
   std::vector<std::pair<std::string, Structure>> ours;
   std::vector<std::pair<std::string, std::unique_ptr<EmbreeScene>>> embree;
 };
-
-struct NamedRun {
-  std::string name;
-  Contestant run;
-};
-
-/// Keeps about `most` rays: whole calls, so that they stay as coherent as they are, from all over the set.
-void keep_spread_calls(std::vector<Ray>& rays, std::size_t most) {
-  const std::size_t calls = rays.size() / rays_at_once, kept = std::max<std::size_t>(most / rays_at_once, 1);
-  if (calls <= kept) return;
-  for (std::size_t i = 0; i < kept; ++i) {
-    const std::size_t from = i * calls / kept;  // never before i
-    if (from == i) continue;
-    std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(from * rays_at_once), rays_at_once,
-                rays.begin() + static_cast<std::ptrdiff_t>(i * rays_at_once));
-  }
-  rays.resize(kept * rays_at_once);
-}
 
 /// Seconds that `part(begin, end)` takes for all of `count` rays.
 template <class Part>
@@ -107,9 +90,9 @@ void trace_batch(const Structure& structure, const RaySet& set, std::size_t begi
     structure.any_hits(rays, std::span(answers.blocked).subspan(begin, end - begin));
 }
 
-std::vector<NamedRun> our_runs(const Tracers& tracers, const RaySet& set, bool batch, unsigned threads,
-                               PeerAnswers& answers) {
-  std::vector<NamedRun> out;
+std::vector<NamedContestant> our_runs(const Tracers& tracers, const RaySet& set, bool batch, unsigned threads,
+                                      PeerAnswers& answers) {
+  std::vector<NamedContestant> out;
   for (const auto& [name, structure] : tracers.ours) {
     out.push_back({name, [&, batch, threads, traced = &structure] {
                      return time_in_parts(set.rays.size(), threads, [&](std::size_t begin, std::size_t end) {
@@ -120,9 +103,9 @@ std::vector<NamedRun> our_runs(const Tracers& tracers, const RaySet& set, bool b
   return out;
 }
 
-std::vector<NamedRun> embree_runs(const Tracers& tracers, const RaySet& set, bool batch, unsigned threads,
-                                  PeerAnswers& answers) {
-  std::vector<NamedRun> out;
+std::vector<NamedContestant> embree_runs(const Tracers& tracers, const RaySet& set, bool batch, unsigned threads,
+                                         PeerAnswers& answers) {
+  std::vector<NamedContestant> out;
   for (const auto& [quality, scene] : tracers.embree) {
     for (std::size_t call = 0; call < (batch ? embree_call_names.size() : 1); ++call) {
       out.push_back({fmt::format("embree.{}.{}", quality, embree_call_names[call]),
@@ -137,14 +120,14 @@ std::vector<NamedRun> embree_runs(const Tracers& tracers, const RaySet& set, boo
 }
 
 /// The fastest of `runs` by one run each, after one that is not timed.
-std::vector<NamedRun> fastest(std::vector<NamedRun> runs) {
+std::vector<NamedContestant> fastest(std::vector<NamedContestant> runs) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     runs[i].run();
     order.emplace_back(runs[i].run(), i);
   }
   std::ranges::sort(order);
-  std::vector<NamedRun> out;
+  std::vector<NamedContestant> out;
   for (std::size_t i = 0; i < std::min(finalists, order.size()); ++i) out.push_back(runs[order[i].second]);
   return out;
 }
@@ -157,18 +140,18 @@ std::size_t index_of_fastest(const std::vector<std::vector<double>>& seconds, st
   return best;
 }
 
-PeerColumn measure(const std::string& name, std::vector<NamedRun> ours, const std::vector<NamedRun>& theirs,
-                   std::uint32_t repeats) {
+PeerColumn measure(const std::string& name, std::vector<NamedContestant> ours,
+                   const std::vector<NamedContestant>& theirs, const InterleaveSettings& settings) {
   const std::size_t split = ours.size();
   ours.insert(ours.end(), theirs.begin(), theirs.end());
   std::vector<Contestant> runs;
   runs.reserve(ours.size());
-  for (const NamedRun& run : ours) runs.push_back(run.run);
-  const auto seconds = interleave(runs, {.repeats = repeats, .warmup = 0});
+  for (const NamedContestant& run : ours) runs.push_back(run.run);
+  const auto seconds = interleave(runs, settings);
   const std::size_t best = index_of_fastest(seconds, 0, split);
   const std::size_t peer = index_of_fastest(seconds, split, seconds.size());
   PeerColumn column{name, ours[best].name, ours[peer].name, estimate_ratio(seconds[peer], seconds[best]), {}, 0, 0};
-  for (std::size_t i = 0; i < repeats; ++i) column.ratios.push_back(seconds[peer][i] / seconds[best][i]);
+  for (std::size_t i = 0; i < settings.repeats; ++i) column.ratios.push_back(seconds[peer][i] / seconds[best][i]);
   return column;
 }
 
@@ -194,19 +177,29 @@ class SceneBench {
   }
 
  private:
-  NamedRun build_run(const std::string& text) const {
-    const Recipe recipe = Recipe::parse(text);
-    return {text, [this, recipe] {
-              return run_in_arena(settings_.threads,
-                                  [&] { return build_seconds(scene_, recipe, clock_for(settings_.threads)); });
+  /// Short builds are timed several at once.
+  NamedContestant several(const std::string& name, const Contestant& build) const {
+    return {name, [this, build] {
+              std::size_t builds = 0;
+              double seconds = 0;
+              do {
+                seconds += build();
+                ++builds;
+              } while (seconds < settings_.least_build_seconds);
+              return seconds / static_cast<double>(builds);
             }};
   }
 
   void measure_builds() {
     for (const auto& [preset, quality] :
          {std::pair{"fast", "low"}, std::pair{"default", "medium"}, std::pair{"best", "high"}}) {
-      out_.columns.push_back(measure(fmt::format("build.{}", preset), {build_run(preset)},
-                                     {build_run(fmt::format("embree(quality={})", quality))}, settings_.build_repeats));
+      const unsigned threads = settings_.threads;
+      const NamedContestant ours = several(preset, [this, threads, recipe = Recipe::parse(preset)] {
+        return run_in_arena(threads, [&] { return build_seconds(scene_, recipe, clock_for(threads)); });
+      });
+      const NamedContestant peer = embree_commits(scene_, {quality}, threads).front();
+      out_.columns.push_back(measure(fmt::format("build.{}", preset), {ours}, {several(peer.name, peer.run)},
+                                     {.repeats = settings_.build_repeats, .warmup = 1}));
     }
   }
 
@@ -229,7 +222,7 @@ class SceneBench {
     view.random_rays = static_cast<std::uint32_t>(settings_.most_rays);
     const std::vector<std::string> kinds = {"primary", "diffuse", "random", "shadow", "ao"};
     std::vector<RaySet> sets = make_ray_sets(scene_, tracers_.ours.front().second, view, kinds);
-    for (RaySet& set : sets) keep_spread_calls(set.rays, settings_.most_rays);
+    for (RaySet& set : sets) keep_spread_runs(set.rays, rays_at_once, settings_.most_rays);
     return sets;
   }
 
@@ -245,7 +238,7 @@ class SceneBench {
       const auto theirs = fastest(embree_runs(tracers_, set, batch, settings_.threads, answers));
       PeerColumn column =
           measure(fmt::format("{}.{}.{}", closest ? "closest" : "any", kind, batch ? "batch" : "single"), ours, theirs,
-                  settings_.repeats);
+                  {.repeats = settings_.repeats, .warmup = 0});
       column.rays = set.rays.size();
       column.mismatches = answers.mismatches(set);
       out_.columns.push_back(std::move(column));

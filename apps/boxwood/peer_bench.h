@@ -37,6 +37,7 @@ struct PeerBenchSettings {
   std::vector<PeerScene> scenes;
   std::uint32_t repeats = 9;
   std::uint32_t build_repeats = 3;
+  double least_build_seconds = 0.1;              ///< shorter builds are timed several at once, until these are over
   std::uint32_t side = 1024;                     ///< pixels of the camera's image
   std::size_t most_rays = std::size_t{1} << 18;  ///< of a kind, in whole calls from all over the picture
   unsigned threads = 1;                          ///< 0: all. One thread is timed in CPU time, more in wall time.

@@ -7,6 +7,7 @@
 #include "boxwood/expected_use.h"  // IWYU pragma: export
 #include "boxwood/hit_filter.h"    // IWYU pragma: export
 #include "boxwood/hit_lists.h"     // IWYU pragma: export
+#include "boxwood/memory.h"        // IWYU pragma: export
 #include "boxwood/moving.h"        // IWYU pragma: export
 #include "boxwood/precise.h"       // IWYU pragma: export
 #include "boxwood/ray.h"           // IWYU pragma: export

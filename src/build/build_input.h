@@ -5,6 +5,7 @@
 
 #include "boxwood/box.h"
 #include "cost/known_use.h"
+#include "math/large_memory.h"
 
 namespace boxwood {
 
@@ -36,7 +37,7 @@ class Geometry {
 
 /// Consumed by a build: it permutes `references` in place and frees them.
 struct BuildInput {
-  std::vector<Reference> references;   ///< usable primitives only, in order of their numbers
+  LargeVector<Reference> references;   ///< usable primitives only, in order of their numbers
   const Geometry* geometry = nullptr;  ///< null when only boxes are known; stages that need it must then refuse
   const KnownUse* use = nullptr;       ///< null when nothing is known of the rays to come; likewise
 };

@@ -167,7 +167,7 @@ Tree build_top_down(BuildInput input, const Centroids& centroids, std::uint32_t 
   tree.references.resize(input.references.size());
   tbb::parallel_for(std::size_t{0}, tree.references.size(),
                     [&](std::size_t i) { tree.references[i] = input.references[i].primitive; });
-  std::vector<Reference>().swap(input.references);  // frees them; assigning {} would not
+  LargeVector<Reference>().swap(input.references);  // frees them; assigning {} would not
   const std::unique_ptr<Tree::Node[]> slots = engine.take_slots();
   const std::uint32_t used = compact(slots.get());
   tree.nodes.assign(slots.get(), slots.get() + used);

@@ -50,7 +50,7 @@ class Widened {
 /// Calls visit(triangle) for all in leaves that are no farther than `limit`, which visit may lower, near ones first.
 template <class Visit>
 void walk_by_distance(const Data& data, const Vec3& point, const double& limit, const Visit& visit) {
-  const std::vector<Node>& nodes = data.tree.nodes;
+  const Tree::Nodes& nodes = data.tree.nodes;
   thread_local Stack stack;
   stack.assign(1, {squared_distance(nodes[0].bounds, point), 0u});
   while (!stack.empty()) {

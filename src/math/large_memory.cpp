@@ -6,6 +6,8 @@
 #include <memory>
 #include <mutex>
 
+#include "boxwood/memory.h"
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -20,11 +22,9 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-[[maybe_unused]] constexpr std::size_t whole_pages(std::size_t bytes) {
-  return (bytes + huge_page - 1) / huge_page * huge_page;
-}
+#ifdef BOXWOOD_MAPS_LARGE_MEMORY
 
-#ifdef __linux__
+constexpr std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
 
 /// Maps a huge page too much and gives back what lies outside the aligned range. Null when there is no memory.
 std::byte* map(std::size_t size) noexcept {
@@ -42,8 +42,6 @@ std::byte* map(std::size_t size) noexcept {
   return memory;
 }
 
-#endif
-
 /// Of memory that outlives its stage.
 constexpr std::size_t mapped_bytes(std::size_t bytes) {
   constexpr std::size_t small_page = 4096;
@@ -51,7 +49,9 @@ constexpr std::size_t mapped_bytes(std::size_t bytes) {
   return whole - bytes <= bytes / 2 ? whole : (bytes + small_page - 1) / small_page * small_page;
 }
 
-#ifdef BOXWOOD_MAPS_LARGE_MEMORY
+/// Of freed blocks. What a build of a million triangles works in; a page that the system has to clear, and in a virtual
+/// machine perhaps to get first, costs more than all that a build does with it.
+constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 
 struct Block {
   std::byte* memory;
@@ -61,26 +61,31 @@ struct Block {
 /// The blocks there are: few, so that lists do.
 class Blocks {
  public:
-  std::byte* allocate(std::size_t size) {
+  struct Memory {
+    std::byte* begin;
+    bool fresh;  ///< from the system, so zero
+  };
+
+  /// A freed block of at least `size` and at most `most` bytes, the smallest, or a new one.
+  Memory allocate(std::size_t size, std::size_t most) {
     const std::lock_guard lock(mutex_);
     used_.reserve(used_.size() + 1);
     free_.reserve(used_.size() + free_.size() + 2);  // free() must not fail.
-    // The smallest freed block that will do and is not twice as large.
     auto best = free_.end();
     for (auto block = free_.begin(); block != free_.end(); ++block) {
-      if (block->size < size || block->size > 2 * size) continue;
+      if (block->size < size || block->size > most) continue;
       if (best == free_.end() || block->size < best->size) best = block;
     }
     if (best == free_.end()) {
       std::byte* const memory = map(size);
       if (!memory) throw std::bad_alloc();
       used_.push_back({memory, size});
-      return memory;
+      return {memory, true};
     }
     used_.push_back(*best);
     free_.erase(best);
     free_bytes_ -= used_.back().size;
-    return used_.back().memory;
+    return {used_.back().memory, false};
   }
 
   void free(std::byte* memory) noexcept {
@@ -88,13 +93,24 @@ class Blocks {
     const auto found = std::ranges::find(used_, memory, &Block::memory);
     const Block block = *found;
     used_.erase(found);
-    if (block.size > kept_large_bytes) {
+    if (block.size > most_kept_bytes) {
       munmap(block.memory, block.size);
       return;
     }
     free_.push_back(block);
     free_bytes_ += block.size;
-    while (free_bytes_ > kept_large_bytes) {
+    keep(most_kept_bytes);
+  }
+
+  void release_kept() noexcept {
+    const std::lock_guard lock(mutex_);
+    keep(0);
+  }
+
+ private:
+  /// Gives the oldest freed blocks back until no more than `bytes` are left.
+  void keep(std::size_t bytes) noexcept {
+    while (free_bytes_ > bytes) {
       const Block oldest = free_.front();
       munmap(oldest.memory, oldest.size);
       free_bytes_ -= oldest.size;
@@ -102,7 +118,6 @@ class Blocks {
     }
   }
 
- private:
   std::mutex mutex_;
   std::vector<Block> used_, free_;  ///< those freed first come first
   std::size_t free_bytes_ = 0;
@@ -120,8 +135,12 @@ Blocks& blocks() {
 
 #ifdef BOXWOOD_MAPS_LARGE_MEMORY
 
-void* allocate_large(std::size_t bytes) { return blocks().allocate(whole_pages(bytes)); }
+void* allocate_large(std::size_t bytes) {
+  const std::size_t size = whole_pages(bytes);
+  return blocks().allocate(size, 2 * size).begin;
+}
 void free_large(void* memory) noexcept { blocks().free(static_cast<std::byte*>(memory)); }
+void release_kept_memory() noexcept { blocks().release_kept(); }
 
 void prefer_huge_pages(void* begin, std::size_t bytes) {
   if (bytes == 0) return;
@@ -139,30 +158,45 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
 #else
 
 void prefer_huge_pages(void*, std::size_t) {}
+void release_kept_memory() noexcept {}
 void* allocate_large(std::size_t bytes) { return ::operator new (bytes, std::align_val_t{huge_page}); }
 void free_large(void* memory) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
 
 #endif
 
-#ifdef __linux__
+#ifdef BOXWOOD_MAPS_LARGE_MEMORY
 
-void* map_zeroed(std::size_t bytes) noexcept {
-  if (mapped_bytes(bytes) >= huge_page) return map(mapped_bytes(bytes));
-  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  return memory == MAP_FAILED ? nullptr : memory;
+void* allocate_held(std::size_t bytes, Holds holds) noexcept {
+  const std::size_t size = mapped_bytes(bytes);
+  if (size % huge_page != 0) {
+    if (size > huge_page) return map(size);
+    void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? nullptr : memory;
+  }
+  try {
+    const Blocks::Memory memory = blocks().allocate(size, size + size / 8);
+    if (holds == Holds::zeros && !memory.fresh) std::memset(memory.begin, 0, bytes);
+    return memory.begin;
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 
-void unmap_zeroed(void* memory, std::size_t bytes) noexcept { munmap(memory, mapped_bytes(bytes)); }
+void free_held(void* memory, std::size_t bytes) noexcept {
+  const std::size_t size = mapped_bytes(bytes);
+  if (size % huge_page == 0) return free_large(memory);
+  munmap(memory, size);
+}
 
 #else
 
-void* map_zeroed(std::size_t bytes) noexcept {
-  void* memory = ::operator new (mapped_bytes(bytes), std::align_val_t{huge_page}, std::nothrow);
-  if (memory) std::memset(memory, 0, bytes);
+void* allocate_held(std::size_t bytes, Holds holds) noexcept {
+  void* memory = ::operator new (bytes, std::align_val_t{huge_page}, std::nothrow);
+  if (memory && holds == Holds::zeros) std::memset(memory, 0, bytes);
   return memory;
 }
 
-void unmap_zeroed(void* memory, std::size_t) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
+void free_held(void* memory, std::size_t) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
 
 #endif
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <span>
@@ -13,18 +14,23 @@ namespace boxwood {
 /// writing it ten times over, and a build touches a hundred bytes per triangle and more.
 inline constexpr std::size_t large_bytes = std::size_t{1} << 18;
 
-/// Zeroed memory for what outlives its stage, in huge pages where the system grants them; its last bytes too, where
-/// rounding up adds no more than half. Null when there is none. Thread safe.
-void* map_zeroed(std::size_t bytes) noexcept;
-void unmap_zeroed(void* memory, std::size_t bytes) noexcept;
-
 /// Memory of at least large_bytes, aligned to 2 MiB, in huge pages where the system grants them. What it holds is
-/// arbitrary. A few blocks that were freed are kept for the next (`kept_large_bytes` in all), so that neither the
-/// stages of one build nor builds that follow each other ask the system again; such a block may be up to twice as large
-/// as asked for: for what is held no longer than a stage. Throws std::bad_alloc. Thread safe.
+/// arbitrary. Some blocks that were freed are kept for the next (boxwood/memory.h), so that neither the stages of one
+/// build nor builds that follow each other ask the system again; such a block may be up to twice as large as asked for:
+/// for what is held no longer than a stage. Throws std::bad_alloc. Thread safe.
 void* allocate_large(std::size_t bytes);
 void free_large(void* memory) noexcept;
-inline constexpr std::size_t kept_large_bytes = std::size_t{64} << 20;
+
+enum class Holds { zeros, anything };
+
+/// Memory for what outlives its stage, aligned to cache lines, in huge pages where the system grants them; its last
+/// bytes too, where rounding up adds no more than half. Comes from the same blocks, where one fits to an eighth. Null
+/// when there is none. Thread safe.
+void* allocate_held(std::size_t bytes, Holds holds) noexcept;
+void free_held(void* memory, std::size_t bytes) noexcept;
+
+/// Stands for the value of an element that is written later.
+struct Unwritten {};
 
 /// Standard allocator that takes large arrays from allocate_large().
 template <class T>
@@ -46,12 +52,48 @@ struct LargeAllocator {
     if (bytes >= large_bytes) return free_large(memory);
     ::operator delete (memory, std::align_val_t{alignof(T)});
   }
+  template <class U>
+  void construct(U*, Unwritten) noexcept {
+    static_assert(std::is_trivially_copyable_v<U> && std::is_trivially_destructible_v<U>);
+  }
   friend bool operator==(const LargeAllocator&, const LargeAllocator&) { return true; }
 };
 
 /// What a stage keeps per primitive or per node while it runs.
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
+
+/// Iterates over elements that are written later.
+class UnwrittenIterator {
+ public:
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = Unwritten;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const Unwritten*;
+  using reference = const Unwritten&;
+
+  explicit UnwrittenIterator(std::size_t at = 0) : at_(at) {}
+  reference operator*() const {
+    static constexpr Unwritten value;
+    return value;
+  }
+  UnwrittenIterator& operator++() {
+    ++at_;
+    return *this;
+  }
+  UnwrittenIterator operator++(int) { return UnwrittenIterator(at_++); }
+  friend bool operator==(const UnwrittenIterator&, const UnwrittenIterator&) = default;
+
+ private:
+  std::size_t at_;
+};
+
+/// `count` elements whose memory is not touched, to be written before they are read, by many threads at best: a vector
+/// made in the usual way writes them in this one.
+template <class T>
+LargeVector<T> unwritten(std::size_t count) {
+  return LargeVector<T>(UnwrittenIterator(), UnwrittenIterator(count));
+}
 
 /// Asks the system for huge pages in [begin, begin + bytes), freshly allocated. No effect on what the memory holds.
 void prefer_huge_pages(void* begin, std::size_t bytes);

@@ -43,7 +43,7 @@ MotionQuality MovingMesh::quality() const {
 
 void MovingMesh::build() {
   const MeshGeometry geometry(mesh());
-  std::vector<Reference> references = geometry.references();
+  LargeVector<Reference> references = geometry.references();
   left_out_.clear();
   if (references.size() < mesh().triangles.size()) {
     std::size_t next = 0;
@@ -161,7 +161,7 @@ MovingMesh::Update MovingMesh::update(const MotionPolicy& policy) {
 /// False where the recipe's builder cannot build the nodes above the parts, because it asks for triangles.
 bool MovingMesh::rebuild(const DueParts& due) {
   const MeshGeometry geometry(mesh());
-  const auto build_part = [&](std::vector<Reference> references, bool of_triangles) {
+  const auto build_part = [&](LargeVector<Reference> references, bool of_triangles) {
     return pipeline_.mesh_tree({std::move(references), of_triangles ? &geometry : nullptr, nullptr});
   };
   try {

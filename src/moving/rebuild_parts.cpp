@@ -23,7 +23,7 @@ class PartsCopy {
     for (std::uint32_t p = 0; p < parts.parts.size(); ++p) part_at_.emplace(parts.parts[p].root, p);
   }
 
-  void build(const DueParts& due, const std::function<Tree(std::vector<Reference>, bool)>& build,
+  void build(const DueParts& due, const std::function<Tree(LargeVector<Reference>, bool)>& build,
              const std::function<Box(std::uint32_t)>& box_of) {
     new_trees_.resize(due.parts.size() + 1);
     tbb::parallel_for(std::size_t{0}, due.parts.size(), [&](std::size_t i) {
@@ -36,7 +36,7 @@ class PartsCopy {
     }
     above_ = old_above;
     if (!due.above) return;
-    std::vector<Reference> all;
+    LargeVector<Reference> all;
     for (std::uint32_t p = 0; p < parts_.parts.size(); ++p) {
       const Box& box = part_box(p);
       all.push_back({box.lower, p, box.upper, 0});
@@ -50,7 +50,7 @@ class PartsCopy {
   CopyItem root() const { return child(above_, 0); }
 
   void expand(const CopyItem& item, Tree::Node& node, std::vector<CopyItem>& children,
-              std::vector<std::uint32_t>& references) const {
+              Tree::References& references) const {
     if (item.count > 1) return expand_group(item, node, children);
     const Tree& from = source(item.tree);
     node = from.nodes[item.node];
@@ -118,7 +118,7 @@ class PartsCopy {
     for (std::uint32_t i = 0; i < pieces; ++i) children.push_back(group(begin(i), begin(i + 1) - begin(i)));
   }
 
-  std::vector<Reference> references_of(const TreeParts::Part& part,
+  LargeVector<Reference> references_of(const TreeParts::Part& part,
                                        const std::function<Box(std::uint32_t)>& box_of) const {
     std::vector<std::uint32_t> primitives;
     primitives.reserve(part.references);
@@ -129,7 +129,7 @@ class PartsCopy {
       primitives.insert(primitives.end(), first, first + node.count);
     }
     std::ranges::sort(primitives);
-    std::vector<Reference> out;
+    LargeVector<Reference> out;
     out.reserve(primitives.size());
     for (const std::uint32_t primitive : primitives) {
       const Box box = box_of(primitive);
@@ -150,13 +150,14 @@ class PartsCopy {
 }  // namespace
 
 Tree rebuild_parts(const Tree& tree, const TreeParts& parts, const DueParts& due, std::uint32_t arity,
-                   const std::function<Tree(std::vector<Reference>, bool of_triangles)>& build,
+                   const std::function<Tree(LargeVector<Reference>, bool of_triangles)>& build,
                    const std::function<Box(std::uint32_t primitive)>& box_of) {
   PartsCopy copy(tree, parts, arity);
   copy.build(due, build, box_of);
   const auto make_expand = [&] {
-    return [&](const CopyItem& item, Tree::Node& node, std::vector<CopyItem>& children,
-               std::vector<std::uint32_t>& references) { copy.expand(item, node, children, references); };
+    return [&](const CopyItem& item, Tree::Node& node, std::vector<CopyItem>& children, Tree::References& references) {
+      copy.expand(item, node, children, references);
+    };
   };
   return assemble(copy.root(), tree.nodes.size(), tree.references.size(), make_expand);
 }

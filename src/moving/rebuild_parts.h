@@ -14,7 +14,7 @@ namespace boxwood {
 /// given the references of a part, in order, or one reference per part, without geometry; it must be thread safe. No
 /// node of the result has more children than `arity` or the trees that `build` makes. Parallel.
 Tree rebuild_parts(const Tree& tree, const TreeParts& parts, const DueParts& due, std::uint32_t arity,
-                   const std::function<Tree(std::vector<Reference>, bool of_triangles)>& build,
+                   const std::function<Tree(LargeVector<Reference>, bool of_triangles)>& build,
                    const std::function<Box(std::uint32_t primitive)>& box_of);
 
 }  // namespace boxwood

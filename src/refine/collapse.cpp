@@ -134,8 +134,8 @@ void check(const CollapseOptions& options, const Tree& tree) {
 Tree collapse(const CollapseOptions& options, Tree tree) {
   check(options, tree);
   if (tree.empty()) return tree;
-  std::vector<Tree::Node> nodes;
-  reserve_large(nodes, tree.nodes.size());
+  Tree::Nodes nodes;
+  nodes.reserve(tree.nodes.size());
   nodes.push_back(tree.nodes[0]);
   struct Pending {
     std::uint32_t from, to;  // a node of the old tree, its place in the new one

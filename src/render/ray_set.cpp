@@ -80,6 +80,18 @@ std::vector<RaySet> make_sets(const Scene& scene, const Structure& structure, co
 
 }  // namespace
 
+void keep_spread_runs(std::vector<Ray>& rays, std::size_t run, std::size_t most) {
+  const std::size_t runs = rays.size() / run, kept = std::max<std::size_t>(most / run, 1);
+  if (runs <= kept) return;
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::size_t from = i * runs / kept;  // never before i
+    if (from == i) continue;
+    std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(from * run), run,
+                rays.begin() + static_cast<std::ptrdiff_t>(i * run));
+  }
+  rays.resize(kept * run);
+}
+
 std::span<const std::string_view> ray_kinds() { return kinds_in_order; }
 
 std::vector<RaySet> make_ray_sets(const Scene& scene, const Structure& structure, const RaySetSettings& settings,

@@ -18,6 +18,10 @@ struct RaySetContext {
   const WholePaths* whole = nullptr;  ///< null: shadow and ao rays from the camera's hits only, one each
 };
 
+/// Leaves about `most` rays, or all if they are fewer: whole runs of `run` rays, so that they stay as coherent as they
+/// are, from all over the set.
+void keep_spread_runs(std::vector<Ray>& rays, std::size_t run, std::size_t most);
+
 /// Closest hits of `rays`, in parallel.
 std::vector<Hit> trace(const Structure& structure, std::span<const Ray> rays);
 

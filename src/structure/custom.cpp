@@ -35,10 +35,10 @@ bool is_usable(const Box& box) {
   return true;
 }
 
-std::vector<Reference> references_of(const CustomPrimitives& primitives, std::uint32_t count) {
+LargeVector<Reference> references_of(const CustomPrimitives& primitives, std::uint32_t count) {
   std::vector<Box> boxes(count);
   tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) { boxes[i] = primitives.bounds(i); });
-  std::vector<Reference> out;
+  LargeVector<Reference> out;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (is_usable(boxes[i])) out.push_back({boxes[i].lower, i, boxes[i].upper, 0});
   }

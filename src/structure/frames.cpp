@@ -87,7 +87,7 @@ class FrameBuilder {
                                return box_of(t).largest_extent() >= size * least_detail;
                              });
     out_.content.reserve(triangles.size());
-    reserve_large(references_, triangles.size());
+    references_.reserve(triangles.size());
     add_triangles(std::span(triangles.begin(), inner));
     std::vector<std::span<PreciseTriangle>> parts;
     if (inner != triangles.end()) divide(std::span(inner, triangles.end()), size * largest_inner_frame, parts);
@@ -127,7 +127,7 @@ class FrameBuilder {
   }
 
   PreciseFrameTree out_;
-  std::vector<Reference> references_;
+  LargeVector<Reference> references_;
   std::vector<std::span<PreciseTriangle>> inner_;
 };
 

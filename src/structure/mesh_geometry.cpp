@@ -34,14 +34,12 @@ bool MeshGeometry::corners(std::uint32_t primitive, Vec3 (&out)[3]) const {
   return true;
 }
 
-std::vector<Reference> MeshGeometry::references() const {
+LargeVector<Reference> MeshGeometry::references() const {
   constexpr std::size_t chunk = 1 << 14;
   const std::size_t count = mesh_.triangles.size();
   const std::size_t chunks = (count + chunk - 1) / chunk;
   // Each chunk fills its own part, so that the order never depends on the threads; then the gaps are closed.
-  std::vector<Reference> out;
-  reserve_large(out, count);
-  out.resize(count);
+  LargeVector<Reference> out = unwritten<Reference>(count);
   std::vector<std::size_t> ends(chunks);
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
     std::size_t next = c * chunk;
@@ -83,8 +81,8 @@ std::vector<Box> instance_boxes(const Scene& scene) {
   return boxes;
 }
 
-std::vector<Reference> instance_references(std::span<const Box> boxes) {
-  std::vector<Reference> out;
+LargeVector<Reference> instance_references(std::span<const Box> boxes) {
+  LargeVector<Reference> out;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     if (!boxes[i].empty()) out.push_back({boxes[i].lower, i, boxes[i].upper});
   }

@@ -16,7 +16,7 @@ class MeshGeometry final : public Geometry {
   Box clip(std::uint32_t primitive, const Box& region) const override;
   bool corners(std::uint32_t primitive, Vec3 (&out)[3]) const override;
   /// One reference per usable triangle, in order. Parallel; O(n).
-  std::vector<Reference> references() const;
+  LargeVector<Reference> references() const;
 
  private:
   const Mesh& mesh_;
@@ -29,6 +29,6 @@ Box usable_bounds(const Mesh& mesh);
 std::vector<Box> instance_boxes(const Scene& scene);
 
 /// One reference per instance that has a box, by number.
-std::vector<Reference> instance_references(std::span<const Box> boxes);
+LargeVector<Reference> instance_references(std::span<const Box> boxes);
 
 }  // namespace boxwood

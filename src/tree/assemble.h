@@ -19,7 +19,8 @@ namespace boxwood {
 /// to where they begin. `make_expand()` makes such a function, one per thread, so that it may have scratch.
 ///
 /// Parallel: the nodes near the root come first, level by level, then the subtrees below them one after the other, each
-/// depth first with siblings side by side. How the tree is cut depends on the tree alone.
+/// depth first with siblings side by side; what a large one has left comes after all of them in the same way. How the
+/// tree is cut depends on the tree alone.
 template <class Item, class MakeExpand>
 class TreeAssembler {
  public:
@@ -31,31 +32,32 @@ class TreeAssembler {
         }) {}
 
   Tree run(const Item& root) {
-    std::vector<Pending> open{{root, 0}};
-    const std::size_t wanted_jobs = nodes_ < small_tree ? 1 : jobs;
-    Sink& top = sinks_.local();
-    top.nodes.emplace_back();
-    for (std::uint32_t level = 0; level < most_levels && !open.empty() && open.size() < wanted_jobs; ++level) {
-      std::vector<Pending> next;
-      for (const Pending& pending : open) top.expand_one(pending, next);
-      open = std::move(next);
+    std::vector<Job> jobs{sinks_.local().write_top(root, nodes_ < small_tree ? 1 : wanted_jobs)};
+    for (std::size_t wave = 0; wave < jobs.size();) {
+      const std::size_t end = jobs.size();
+      for (std::size_t parent = wave; parent < end; ++parent) {
+        for (const Pending& pending : std::exchange(jobs[parent].open, {})) {
+          jobs.push_back({.item = pending.item, .parent = parent, .place = pending.place});
+        }
+      }
+      tbb::parallel_for(end, jobs.size(), [&](std::size_t j) { jobs[j] = sinks_.local().write(std::move(jobs[j])); });
+      wave = end;
     }
-    const Job top_job = {&top, {}, 0, 0, top.nodes.size(), top.references.size()};
-    std::vector<Job> all(open.size());
-    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { all[j] = sinks_.local().write(open[j].item); });
     Tree tree;
-    if (is_one_piece(top_job, all)) {
-      tree.nodes = std::move(top.nodes);
-      tree.references = std::move(top.references);
+    if (is_one_piece(jobs)) {
+      tree.nodes = std::move(jobs.front().sink->nodes);
+      tree.references = std::move(jobs.front().sink->references);
     } else {
-      tree = put_together(top_job, all);
+      tree = put_together(jobs);
     }
-    for (std::size_t j = 0; j < all.size(); ++j) tree.nodes[open[j].place] = all[j].root;
+    for (std::size_t j = 1; j < jobs.size(); ++j) tree.nodes[jobs[j].place] = jobs[j].root;
     return tree;
   }
 
  private:
-  static constexpr std::size_t jobs = 256, small_tree = 4096;
+  static constexpr std::size_t wanted_jobs = 256, small_tree = 4096;
+  /// Nodes after which a job leaves the rest to others: a subtree can be most of the tree.
+  static constexpr std::size_t job_nodes = 4096;
   static constexpr std::uint32_t most_levels = 64;
 
   struct Pending {
@@ -64,10 +66,14 @@ class TreeAssembler {
   };
 
   struct Sink;
-  /// A subtree: its root, and where in a sink the rest of it lies.
+  /// A subtree without its root, or its upper part, and where in a sink it lies. The first job is all above the others.
   struct Job {
+    Item item;
+    std::size_t parent = 0;  ///< the job whose part has a place for the root
+    std::size_t place = 0;   ///< that place, in that job's sink
+    Tree::Node root = {};
+    std::vector<Pending> open = {};  ///< what it leaves to other jobs
     Sink* sink = nullptr;
-    Tree::Node root;
     std::size_t first_node = 0, first_reference = 0, end_node = 0, end_reference = 0;
   };
 
@@ -75,22 +81,47 @@ class TreeAssembler {
   struct Sink {
     Sink(std::size_t about_nodes, std::size_t about_references, decltype(std::declval<MakeExpand>()()) function)
         : expand(std::move(function)) {
-      reserve_large(nodes, about_nodes);
-      reserve_large(references, about_references);
+      nodes.reserve(about_nodes);
+      references.reserve(about_references);
     }
 
-    /// Writes all that is below an item.
-    Job write(const Item& item) {
-      Job job{this, {}, nodes.size(), references.size(), 0, 0};
+    /// The root and what is below it, level by level, until `wanted` nodes are open or none.
+    Job write_top(const Item& root, std::size_t wanted) {
+      Job job = begin({.item = root});
+      nodes.emplace_back();
+      job.open.push_back({root, 0});
+      for (std::uint32_t level = 0; level < most_levels && !job.open.empty() && job.open.size() < wanted; ++level) {
+        std::vector<Pending> next;
+        for (const Pending& pending : job.open) expand_one(pending, next);
+        job.open = std::move(next);
+      }
+      return end(std::move(job));
+    }
+
+    /// Writes what is below the job's item.
+    Job write(Job job) {
+      job = begin(std::move(job));
       stack.clear();
-      job.root = expand_item(item, stack);
-      while (!stack.empty()) {
+      job.root = expand_item(job.item, stack);
+      while (!stack.empty() && nodes.size() - job.first_node < job_nodes) {
         const Pending pending = stack.back();
         stack.pop_back();
         const std::size_t before = stack.size();
         expand_one(pending, stack);
         std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(before), stack.end());
       }
+      job.open.assign(stack.rbegin(), stack.rend());
+      return end(std::move(job));
+    }
+
+    Job begin(Job job) {
+      job.sink = this;
+      job.first_node = nodes.size();
+      job.first_reference = references.size();
+      return job;
+    }
+
+    Job end(Job job) const {
       job.end_node = nodes.size();
       job.end_reference = references.size();
       return job;
@@ -114,44 +145,41 @@ class TreeAssembler {
     }
 
     decltype(std::declval<MakeExpand>()()) expand;
-    std::vector<Tree::Node> nodes;
-    std::vector<std::uint32_t> references;
+    Tree::Nodes nodes;
+    Tree::References references;
     std::vector<Item> children;
     std::vector<Pending> stack;
   };
 
   /// Whether one thread has written everything, in order.
-  static bool is_one_piece(const Job& top, const std::vector<Job>& all) {
-    std::size_t end = top.end_node;
-    for (const Job& job : all) {
-      if (job.sink != top.sink || job.first_node != end) return false;
+  static bool is_one_piece(const std::vector<Job>& jobs) {
+    std::size_t end = 0;
+    for (const Job& job : jobs) {
+      if (job.sink != jobs.front().sink || job.first_node != end) return false;
       end = job.end_node;
     }
     return true;
   }
 
-  /// The pieces one after the other. Sets all but the jobs' roots in the tree, those in `all`.
-  static Tree put_together(const Job& top, std::vector<Job>& all) {
-    std::vector<std::size_t> node_places{top.end_node}, reference_places{top.end_reference};
-    for (const Job& job : all) {
+  /// The pieces one after the other. Sets all but the jobs' roots in the tree, those and their places in `jobs`.
+  static Tree put_together(std::vector<Job>& jobs) {
+    std::vector<std::size_t> node_places{0}, reference_places{0};
+    for (const Job& job : jobs) {
       node_places.push_back(node_places.back() + job.end_node - job.first_node);
       reference_places.push_back(reference_places.back() + job.end_reference - job.first_reference);
     }
     Tree tree;
-    reserve_large(tree.nodes, node_places.back());
-    reserve_large(tree.references, reference_places.back());
-    tree.nodes.resize(node_places.back());
-    tree.references.resize(reference_places.back());
-    std::copy_n(top.sink->nodes.begin(), top.end_node, tree.nodes.begin());
-    std::copy_n(top.sink->references.begin(), top.end_reference, tree.references.begin());
-    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t j) {
-      Job& job = all[j];
+    tree.nodes = unwritten<Tree::Node>(node_places.back());
+    tree.references = unwritten<std::uint32_t>(reference_places.back());
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+      Job& job = jobs[j];
       const auto settled = [&](Tree::Node node) {
         node.first += static_cast<std::uint32_t>(node.is_leaf() ? reference_places[j] - job.first_reference
                                                                 : node_places[j] - job.first_node);
         return node;
       };
       job.root = settled(job.root);
+      job.place += node_places[job.parent] - jobs[job.parent].first_node;
       std::transform(job.sink->nodes.data() + job.first_node, job.sink->nodes.data() + job.end_node,
                      tree.nodes.data() + node_places[j], settled);
       std::copy(job.sink->references.data() + job.first_reference, job.sink->references.data() + job.end_reference,

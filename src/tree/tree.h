@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "boxwood/box.h"
+#include "math/large_memory.h"
 #include "tree/octree_cells.h"
 
 namespace boxwood {
@@ -35,8 +36,11 @@ struct Tree {
   static constexpr std::uint32_t mixed_axis = 3;
   static constexpr std::uint32_t max_count = (1u << 27) - 1;
 
-  std::vector<Node> nodes;
-  std::vector<std::uint32_t> references;  ///< primitive numbers, leaf by leaf
+  /// Large ones come from blocks that stages hand on to each other.
+  using Nodes = LargeVector<Node>;
+  using References = LargeVector<std::uint32_t>;
+  Nodes nodes;
+  References references;  ///< primitive numbers, leaf by leaf
   bool clipped_leaves = false;
   OctreeCells cells;  ///< only of trees that divide space into octants
 

@@ -176,7 +176,7 @@ class Validator {
   }
 
   const Tree& tree_;
-  const std::vector<Tree::Node>& nodes_;
+  const Tree::Nodes& nodes_;
   std::span<const Box> bounds_;
   std::uint32_t max_arity_;
 };

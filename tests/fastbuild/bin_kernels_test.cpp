@@ -15,8 +15,8 @@ namespace boxwood {
 namespace {
 
 /// References of any number, all with something in their fourth lanes.
-std::vector<Reference> references_of(const Triangles& triangles) {
-  std::vector<Reference> out = triangles.input().references;
+LargeVector<Reference> references_of(const Triangles& triangles) {
+  LargeVector<Reference> out = triangles.input().references;
   for (Reference& reference : out) reference.seen = reference.primitive % 2 != 0 ? 1.0f : 0.0f;
   return out;
 }
@@ -46,7 +46,7 @@ class BinKernels : public testing::TestWithParam<std::int64_t> {
   template <class Check>
   static void for_each_set(const Check& check) {
     for (const std::size_t count : {1u, 2u, 7u, 63u, 64u, 501u}) {
-      const std::vector<Reference> references = references_of(Triangles("scattered", scattered(count, 0.2f)));
+      const LargeVector<Reference> references = references_of(Triangles("scattered", scattered(count, 0.2f)));
       for (const std::uint32_t bins : {2u, 5u, 8u, 64u}) {
         check(references, Slabs(centers_of(references), bins), bins);
       }
@@ -58,7 +58,7 @@ class BinKernels : public testing::TestWithParam<std::int64_t> {
 };
 
 TEST_P(BinKernels, FilledBins_HoldWhatFallsIntoThem) {
-  for_each_set([](const std::vector<Reference>& references, const Slabs& slabs, std::uint32_t bins) {
+  for_each_set([](const LargeVector<Reference>& references, const Slabs& slabs, std::uint32_t bins) {
     const Filled filled(references, slabs, bins);
     for (std::uint32_t b = 0; b < bins; ++b) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -77,7 +77,7 @@ TEST_P(BinKernels, FilledBins_HoldWhatFallsIntoThem) {
 }
 
 TEST_P(BinKernels, CheapestBorder_IsTheFirstOfTheCheapest) {
-  for_each_set([](const std::vector<Reference>& references, const Slabs& slabs, std::uint32_t bins) {
+  for_each_set([](const LargeVector<Reference>& references, const Slabs& slabs, std::uint32_t bins) {
     for (const std::uint32_t shift : {0u, 2u}) {
       const BinBorder found = cheapest_border(Filled(references, slabs, bins).rows, shift);
       BinBorder best;
@@ -107,7 +107,7 @@ TEST_P(BinKernels, CheapestBorder_IsTheFirstOfTheCheapest) {
 }
 
 TEST_P(BinKernels, Division_KeepsAllAndKnowsTheirCentres) {
-  for_each_set([](std::vector<Reference> references, const Slabs& slabs, std::uint32_t bins) {
+  for_each_set([](LargeVector<Reference> references, const Slabs& slabs, std::uint32_t bins) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto border = static_cast<std::int32_t>(bins / 2);
       Box4 front, back;
@@ -129,7 +129,7 @@ TEST_P(BinKernels, Division_KeepsAllAndKnowsTheirCentres) {
 /// What a slab's part of a triangle must at least be, and about what it may be.
 TEST_P(BinKernels, PartsInSlabs_AreThoseOfClipping) {
   const Triangles triangles("needles", needles(60));
-  const std::vector<Reference> references = references_of(triangles);
+  const LargeVector<Reference> references = references_of(triangles);
   for (const Reference& reference : references) {
     Box4 bounds = box4(reference);
     for (const std::uint32_t bins : {2u, 8u, 13u}) {

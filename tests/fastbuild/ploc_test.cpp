@@ -24,7 +24,7 @@ TEST(RadixSort, RandomKeys_SortedByHighBitsAndOtherwiseUnmoved) {
 
 TEST(MortonOrder, AnyBoxes_EachOnceInOrderOfCodes) {
   const Triangles triangles("scattered", scattered(5000, 0.1f));
-  const std::vector<Reference> references = triangles.input().references;
+  const LargeVector<Reference> references = triangles.input().references;
   for (const unsigned bits : {3u, 30u, 60u}) {
     const MortonOrder order = morton_order(references, bits);
     std::vector<bool> seen(references.size());
@@ -37,7 +37,7 @@ TEST(MortonOrder, AnyBoxes_EachOnceInOrderOfCodes) {
 }
 
 TEST(MortonOrder, CentersInOctants_GroupedByOctant) {
-  std::vector<Reference> references;
+  LargeVector<Reference> references;
   for (std::uint32_t i = 0; i < 64; ++i) {
     const Vec3 at{static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2 & 1)};
     references.push_back({at, i, at});

@@ -64,7 +64,7 @@ TEST(Presplit, AnyBudget_IsKeptAndPiecesLieInTheirTriangle) {
   for (const Triangles& triangles : troubling_triangles()) {
     const std::vector<Box> boxes = triangles.boxes();
     for (const float budget : {0.0f, 0.2f, 3.0f}) {
-      const std::vector<Reference> pieces = presplit(triangles.input().references, triangles, budget);
+      const LargeVector<Reference> pieces = presplit(triangles.input().references, triangles, budget);
       EXPECT_LE(static_cast<double>(pieces.size()), static_cast<double>(triangles.size()) * (1 + double{budget}));
       for (const Reference& piece : pieces) EXPECT_TRUE(boxes[piece.primitive].contains(piece.box()));
     }

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <thread>
+
+#include "boxwood/memory.h"
 
 namespace boxwood {
 namespace {
@@ -34,6 +37,47 @@ TEST(LargeMemory, BlocksInUse_AreDisjoint) {
     std::fill_n(static_cast<std::byte*>(other), large_bytes, std::byte{0xff});
     for (const auto& block : blocks) ASSERT_NE(block.front(), ~std::uint64_t{0});
     free_large(other);
+  }
+}
+
+/// More than is kept for later, so that some of it has been given back meanwhile.
+TEST(LargeMemory, BlocksFreedAndMadeAgain_HoldWhatIsWritten) {
+  constexpr std::size_t each = std::size_t{100} << 20;
+  for (std::uint32_t round = 0; round < 3; ++round) {
+    std::vector<RawArray<std::uint64_t>> blocks;
+    for (std::uint64_t b = 0; b < 3; ++b) {
+      blocks.emplace_back(each / 8);
+      for (std::size_t i = 0; i < blocks[b].size(); i += 512) blocks[b][i] = b * 1000 + i + round;
+    }
+    for (std::uint64_t b = 0; b < 3; ++b) {
+      for (std::size_t i = 0; i < blocks[b].size(); i += 512) ASSERT_EQ(blocks[b][i], b * 1000 + i + round);
+    }
+    release_kept_memory();
+  }
+}
+
+TEST(HeldMemory, AskedForZeros_HoldsThem) {
+  for (const std::size_t bytes : {std::size_t{100}, std::size_t{300} << 10, std::size_t{1900} << 10,
+                                  std::size_t{2500} << 10, std::size_t{4} << 20, std::size_t{11} << 20}) {
+    for (int round = 0; round < 2; ++round) {
+      auto* memory = static_cast<std::byte*>(allocate_held(bytes, Holds::zeros));
+      ASSERT_NE(memory, nullptr);
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % 64, 0u);
+      EXPECT_EQ(std::count(memory, memory + bytes, std::byte{0}), static_cast<std::ptrdiff_t>(bytes));
+      std::fill_n(memory, bytes, std::byte{0xff});
+      free_held(memory, bytes);
+    }
+  }
+}
+
+TEST(LargeVector, Unwritten_IsAnArrayLikeAnyOtherOnceWritten) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, std::size_t{300000}}) {
+    LargeVector<std::uint32_t> values = unwritten<std::uint32_t>(size);
+    ASSERT_EQ(values.size(), size);
+    std::iota(values.begin(), values.end(), 1u);
+    values.resize(size + 3);  // as ever: zeros
+    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(values[i], i + 1);
+    for (std::size_t i = size; i < size + 3; ++i) EXPECT_EQ(values[i], 0u);
   }
 }
 

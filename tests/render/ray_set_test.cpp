@@ -9,6 +9,7 @@
 #include <cstring>
 #include <set>
 
+#include "render/ray_sets.h"
 #include "render/test_scenes.h"
 
 namespace boxwood {
@@ -200,6 +201,28 @@ TEST(RaySets, UnknownKindIsRefusedWithTheValidOnes) {
     EXPECT_NE(std::string(error.what()).find("'primary'"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("grazing"), std::string::npos) << error.what();
   }
+}
+
+/// Rays that tell by their t_far which they are.
+std::vector<float> kept_of(std::size_t rays, std::size_t run, std::size_t most) {
+  std::vector<Ray> numbered(rays);
+  for (std::size_t i = 0; i < rays; ++i) numbered[i].t_far = static_cast<float>(i);
+  keep_spread_runs(numbered, run, most);
+  std::vector<float> out;
+  for (const Ray& ray : numbered) out.push_back(ray.t_far);
+  return out;
+}
+
+TEST(SpreadRuns, KeepsWholeRunsFromAllOverTheSet) {
+  EXPECT_EQ(kept_of(20, 2, 6), (std::vector<float>{0, 1, 6, 7, 12, 13}));
+  // What is left after the last whole run is never kept, and runs are not cut to come nearer to the number wanted.
+  EXPECT_EQ(kept_of(21, 4, 11), (std::vector<float>{0, 1, 2, 3, 8, 9, 10, 11}));
+}
+
+TEST(SpreadRuns, KeepsOneRunAtLeastAndAllRaysWhereThereAreFew) {
+  EXPECT_EQ(kept_of(9, 3, 1), (std::vector<float>{0, 1, 2}));
+  EXPECT_EQ(kept_of(5, 3, 8), (std::vector<float>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(kept_of(0, 3, 8), std::vector<float>());
 }
 
 }  // namespace

@@ -10,8 +10,11 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "layout/simd/wide_arena.h"
+#include "math/large_memory.h"
 #include "simd/test_targets.h"
 #include "simd/test_trees.h"
 #include "trace/brute_force.h"
@@ -114,6 +117,40 @@ TEST(SimdWide, CountsOfOneTriangle_AreOneStepOneLeafOneTest) {
   layout->closest_hits_counted({&ray, 1}, {&hit, 1}, {&counters, 1});
   EXPECT_EQ(counters, (RayCounters{1, 1, 1, 1, 1}));
   EXPECT_EQ(hit.t, 1);
+}
+
+/// Saved files and their checksums depend on it.
+TEST(SimdWide, Memory_DoesNotDependOnWhatItHeldBefore) {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  TestRandom random(3);
+  for (int i = 0; i < 50000; ++i) {
+    const Vec3 center = random.point(-1, 1);
+    add_triangle(positions, triangles, center, center + random.point(0, 0.01f), center + random.point(0, 0.01f));
+  }
+  Scene scene;
+  scene.add_mesh(std::move(positions), std::move(triangles));
+  const Mesh& mesh = scene.meshes.front();
+  const auto bytes_of = [&]<int N, int L>(std::integral_constant<int, N>, std::integral_constant<int, L>,
+                                          std::byte before) {
+    constexpr std::size_t dirty = std::size_t{4} << 20;
+    std::vector<void*> blocks;
+    for (std::size_t i = 1; i < 5; ++i) {
+      blocks.push_back(allocate_large(i * dirty));
+      std::fill_n(static_cast<std::byte*>(blocks.back()), i * dirty, before);
+    }
+    for (void* block : blocks) free_large(block);
+    const WideArena arena = *encode_wide<N, L>(test_tree(mesh, N, 3), mesh);
+    return std::vector<std::byte>(arena.memory.data(), arena.memory.data() + arena.memory.bytes());
+  };
+  const auto check = [&](auto n, auto l) {
+    const auto first = bytes_of(n, l, std::byte{0x55}), second = bytes_of(n, l, std::byte{0xaa});
+    EXPECT_GT(first.size(), std::size_t{2} << 20);
+    EXPECT_TRUE(first == second) << n;
+  };
+  check(std::integral_constant<int, 4>(), std::integral_constant<int, 4>());
+  check(std::integral_constant<int, 8>(), std::integral_constant<int, 4>());
+  check(std::integral_constant<int, 16>(), std::integral_constant<int, 8>());
 }
 
 TEST(SimdWide, UnsupportedTrees_AreRefused) {

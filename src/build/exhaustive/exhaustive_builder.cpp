@@ -35,7 +35,7 @@ Cuts cut_of_best_tree(const ReferenceSet& set, const Centroids& centroids, const
   const Subset left = best.left(small.all());
   Cuts cuts;
   if (left == 0) return cuts;
-  std::vector<Reference> right;
+  LargeVector<Reference> right;
   std::uint32_t place = 0;
   for (std::uint32_t i = 0; i < set.size(); ++i) {
     if (left >> i & 1) {

@@ -86,7 +86,7 @@ class Foresight {
   /// Replaces prices by what greedy trees over both sides cost.
   void try_out(const ReferenceSet& set, const BinMapping& mapping, std::vector<Candidate>& candidates) const {
     const auto price = [&](std::size_t c) {
-      std::vector<Reference> trial(set.references.begin(), set.references.end());
+      LargeVector<Reference> trial(set.references.begin(), set.references.end());
       const std::span<Reference> all(trial);
       const std::uint32_t left = divide(all, centroids_, mapping, candidates[c]);
       candidates[c].price = greedy_cost(all.first(left), 0) + greedy_cost(all.subspan(left), 0);

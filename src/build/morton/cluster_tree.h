@@ -27,6 +27,7 @@ struct ClusterId {
   static constexpr std::uint32_t given_bit = 1u << 31, leaf_bit = 1u << 30;
   std::uint32_t bits = 0;
 
+  static ClusterId inner(std::uint32_t slot) { return {slot}; }
   static ClusterId given(std::uint32_t place) { return {place | given_bit}; }
   static ClusterId group(std::uint32_t place) { return {place | given_bit | leaf_bit}; }
   static ClusterId node(std::uint32_t slot, bool leaf) { return {slot | (leaf ? leaf_bit : 0)}; }

@@ -108,62 +108,115 @@ class Clustering {
     }
   }
 
-  /// The nodes above the blocks, the leaves that are made of roots of blocks, then block by block.
-  void write(const Cluster& root) {
-    LargeVector<Tree::Node> top(1);
-    std::vector<std::uint32_t> loose;
-    struct Subtree {
+  /// A part of the nodes above the blocks: the root of a subtree and what is below it, but no block.
+  struct Piece {
+    struct Block {
       std::size_t node;
-      RootPlace place;
+      RootPlace root;
     };
-    std::vector<Subtree> subtrees;
-    top.front().bounds = root.bounds;
-    SubtreeWriter(width_).write(
-        joins_.data(), SubtreeWriter::NoGroups{}, root.id, 0, 0, top, [&](Tree::Node& node, ClusterId id) {
-          if (id.is_given()) {
-            const RootPlace place = root_place(id);
-            if (!blocks_[place.block].roots[place.root].id.is_leaf()) {
-              subtrees.push_back({static_cast<std::size_t>(&node - top.data()), place});
-              return;
-            }
-          }
-          node.leaf = 1;
-          node.first = static_cast<std::uint32_t>(loose.size());
-          collect(id, loose);
-          node.count = (static_cast<std::uint32_t>(loose.size()) - node.first) & Tree::max_count;
-        });
+    std::size_t place = 0;  ///< the root's in the tree, where the first piece's nodes have the places they have here
+    LargeVector<Tree::Node> nodes = LargeVector<Tree::Node>(1);
+    std::vector<std::uint32_t> references;  ///< of leaves that are made of roots of blocks
+    std::vector<Block> blocks;              ///< whose roots belong to these nodes
 
-    std::vector<std::size_t> node_places{top.size()}, reference_places{loose.size()};
-    for (const ClusterBlock& block : blocks_) {
-      node_places.push_back(node_places.back() + block.nodes_below_roots());
-      reference_places.push_back(reference_places.back() + block.reference_count - block.loose_references);
+    std::size_t nodes_below_root() const { return nodes.size() - 1; }
+  };
+  static constexpr std::size_t wanted_pieces = 128;
+
+  /// What a piece does with a child that is no join.
+  auto finish(Piece& piece) const {
+    return [this, &piece](Tree::Node& node, ClusterId id) {
+      if (id.is_given()) {
+        const RootPlace place = root_place(id);
+        if (!blocks_[place.block].roots[place.root].id.is_leaf()) {
+          piece.blocks.push_back({static_cast<std::size_t>(&node - piece.nodes.data()), place});
+          return;
+        }
+      }
+      node.leaf = 1;
+      node.first = static_cast<std::uint32_t>(piece.references.size());
+      collect(id, piece.references);
+      node.count = (static_cast<std::uint32_t>(piece.references.size()) - node.first) & Tree::max_count;
+    };
+  }
+
+  /// First the nodes near the root, until there are subtrees enough for other tasks, then those.
+  std::vector<Piece> write_pieces(const Cluster& root) {
+    std::vector<Piece> pieces(1);
+    Piece& top = pieces.front();
+    top.nodes.front().bounds = root.bounds;
+    if (!root.id.is_inner()) {
+      finish(top)(top.nodes.front(), root.id);
+      return pieces;
     }
-    reserve_large(tree_.nodes, node_places.back());
-    reserve_large(tree_.references, count_);
-    tree_.nodes.resize(node_places.back());
-    tree_.references.resize(count_);
-    std::copy(top.begin(), top.end(), tree_.nodes.begin());
-    std::copy(loose.begin(), loose.end(), tree_.references.begin());
-    tbb::parallel_for(std::size_t{0}, blocks_.size(),
-                      [&](std::size_t b) { place_block(blocks_[b], node_places[b], reference_places[b]); });
-    for (const Subtree& subtree : subtrees) {
-      const ClusterBlock& block = blocks_[subtree.place.block];
-      tree_.nodes[subtree.node] = block.nodes()[subtree.place.root];
-      tree_.nodes[subtree.node].first +=
-          static_cast<std::uint32_t>(node_places[subtree.place.block] - block.roots.size());
+    SubtreeWriter writer(width_);
+    std::vector<SubtreeWriter::Pending> open{{root.id.number(), 0}};
+    while (!open.empty() && open.size() < wanted_pieces) {
+      std::vector<SubtreeWriter::Pending> next;
+      for (const SubtreeWriter::Pending& at : open) {
+        writer.write_one(joins_.data(), SubtreeWriter::NoGroups{}, at, 0, top.nodes, finish(top), next);
+      }
+      open = std::move(next);
+    }
+    pieces.resize(1 + open.size());
+    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) {
+      Piece& piece = pieces[1 + i];
+      piece.place = open[i].node;
+      piece.nodes.front().bounds = pieces.front().nodes[piece.place].bounds;
+      SubtreeWriter(width_).write(joins_.data(), SubtreeWriter::NoGroups{}, ClusterId::inner(open[i].slot), 0, 0,
+                                  piece.nodes, finish(piece));
+    });
+    return pieces;
+  }
+
+  /// The root, the pieces of the nodes above the blocks, then block by block.
+  void write(const Cluster& root) {
+    const std::vector<Piece> pieces = write_pieces(root);
+    std::vector<std::size_t> node_places{1}, reference_places{0};
+    const auto add = [&](std::size_t nodes, std::size_t references) {
+      node_places.push_back(node_places.back() + nodes);
+      reference_places.push_back(reference_places.back() + references);
+    };
+    for (const Piece& piece : pieces) add(piece.nodes_below_root(), piece.references.size());
+    for (const ClusterBlock& block : blocks_) {
+      add(block.nodes_below_roots(), block.reference_count - block.loose_references);
+    }
+    tree_.nodes = unwritten<Tree::Node>(node_places.back());
+    tree_.references = unwritten<std::uint32_t>(count_);
+    tbb::parallel_for(std::size_t{0}, pieces.size() + blocks_.size(), [&](std::size_t i) {
+      if (i < pieces.size()) {
+        place(pieces[i].nodes, 1, pieces[i].references, 0, node_places[i], reference_places[i]);
+      } else {
+        const ClusterBlock& block = blocks_[i - pieces.size()];
+        place(block.nodes(), block.roots.size(), block.references(), block.loose_references, node_places[i],
+              reference_places[i]);
+      }
+    });
+    // Roots are children of other parts' nodes.
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      const Piece& piece = pieces[p];
+      tree_.nodes[piece.place] = shifted(piece.nodes.front(), node_places[p] - 1, reference_places[p]);
+      for (const auto& [node, at] : piece.blocks) {
+        const ClusterBlock& block = blocks_[at.block];
+        tree_.nodes[node == 0 ? piece.place : node_places[p] + node - 1] =
+            shifted(block.nodes()[at.root], node_places[pieces.size() + at.block] - block.roots.size(), 0);
+      }
     }
   }
 
-  void place_block(const ClusterBlock& block, std::size_t node_place, std::size_t reference_place) {
-    const auto node_shift = static_cast<std::uint32_t>(node_place - block.roots.size());
-    const auto reference_shift = static_cast<std::uint32_t>(reference_place - block.loose_references);
-    const auto below = block.nodes().subspan(block.roots.size());
-    std::transform(below.begin(), below.end(), tree_.nodes.begin() + static_cast<std::ptrdiff_t>(node_place),
-                   [=](Tree::Node node) {
-                     node.first += node.is_leaf() ? reference_shift : node_shift;
-                     return node;
+  static Tree::Node shifted(Tree::Node node, std::size_t nodes, std::size_t references) {
+    node.first += static_cast<std::uint32_t>(node.is_leaf() ? references : nodes);
+    return node;
+  }
+
+  /// Copies a part of the tree to its place, without the first nodes and references.
+  void place(std::span<const Tree::Node> nodes, std::size_t first_node, std::span<const std::uint32_t> references,
+             std::size_t first_reference, std::size_t node_place, std::size_t reference_place) {
+    std::transform(nodes.begin() + static_cast<std::ptrdiff_t>(first_node), nodes.end(),
+                   tree_.nodes.begin() + static_cast<std::ptrdiff_t>(node_place), [=](const Tree::Node& node) {
+                     return shifted(node, node_place - first_node, reference_place - first_reference);
                    });
-    std::ranges::copy(block.references().subspan(block.loose_references),
+    std::ranges::copy(references.subspan(first_reference),
                       tree_.references.begin() + static_cast<std::ptrdiff_t>(reference_place));
   }
 

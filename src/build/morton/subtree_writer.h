@@ -44,29 +44,38 @@ class SubtreeWriter {
     if (!id.is_inner()) return finish(out[begin + place], id);
     pending_.push_back({id.number(), static_cast<std::uint32_t>(place)});
     while (!pending_.empty()) {
-      const auto [slot, node] = pending_.back();
+      const Pending next = pending_.back();
       pending_.pop_back();
-      gather_children(nodes, groups, slot);
-      const auto first = static_cast<std::uint32_t>(out.size() - begin);
-      out.resize(out.size() + count_);
-      Tree::Node* block = out.data() + begin;
-      block[node].first = first;
-      block[node].count = count_ & Tree::max_count;
-      block[node].axis = axis_ & 3;
-      for (std::uint32_t c = 0; c < count_; ++c) {
-        block[first + c].bounds = *children_[c].bounds;
-        if (!children_[c].id.is_inner()) finish(block[first + c], children_[c].id);
-      }
-      for (std::uint32_t c = count_; c-- > 0;) {
-        if (children_[c].id.is_inner()) pending_.push_back({children_[c].id.number(), first + c});
-      }
+      write_one(nodes, groups, next, begin, out, finish, pending_);
+    }
+  }
+
+  /// An inner node that is to be written.
+  struct Pending {
+    std::uint32_t slot, node;  ///< its join, its place
+  };
+
+  /// Sets one node and appends its children to `out`; those of them that are inner nodes to `pending`, the first last.
+  template <class Groups, class Finish>
+  void write_one(const ClusterNode* nodes, const Groups& groups, Pending at, std::size_t begin,
+                 LargeVector<Tree::Node>& out, Finish&& finish, std::vector<Pending>& pending) {
+    gather_children(nodes, groups, at.slot);
+    const auto first = static_cast<std::uint32_t>(out.size() - begin);
+    out.resize(out.size() + count_);
+    Tree::Node* block = out.data() + begin;
+    block[at.node].first = first;
+    block[at.node].count = count_ & Tree::max_count;
+    block[at.node].axis = axis_ & 3;
+    for (std::uint32_t c = 0; c < count_; ++c) {
+      block[first + c].bounds = *children_[c].bounds;
+      if (!children_[c].id.is_inner()) finish(block[first + c], children_[c].id);
+    }
+    for (std::uint32_t c = count_; c-- > 0;) {
+      if (children_[c].id.is_inner()) pending.push_back({children_[c].id.number(), first + c});
     }
   }
 
  private:
-  struct Pending {
-    std::uint32_t slot, node;
-  };
   template <class Groups>
   void gather_children(const ClusterNode* nodes, const Groups& groups, std::uint32_t slot) {
     axis_ = put_pair(nodes[slot], groups, 0);

@@ -77,7 +77,7 @@ class OctreeBuilder {
   }
 
  private:
-  static Box bounds_of(const std::vector<Reference>& references) {
+  static Box bounds_of(const LargeVector<Reference>& references) {
     Box bounds;
     for (const Reference& reference : references) bounds.grow(reference.box());
     return bounds;
@@ -231,7 +231,7 @@ class OctreeBuilder {
 
   const OctreeOptions options_;
   const Geometry* geometry_;
-  std::vector<Reference> references_;
+  LargeVector<Reference> references_;
   OctreeGrid grid_;
   OctantFinder finder_;
   std::uint64_t limit_;

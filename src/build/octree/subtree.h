@@ -9,9 +9,9 @@ namespace boxwood {
 
 /// A part of an octree under construction: the root first, children side by side after their parents.
 struct OctreeSubtree {
-  std::vector<Tree::Node> nodes;
+  Tree::Nodes nodes;
   std::vector<OctreeCode> codes;  ///< [i] = cell of nodes[i]
-  std::vector<std::uint32_t> references;
+  Tree::References references;
 
   /// Room for `count` siblings; returns the first's place.
   std::size_t add_siblings(std::size_t count) {

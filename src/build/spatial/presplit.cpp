@@ -88,7 +88,7 @@ Reference with_box(Reference reference, const Box& box) {
 
 /// Appends the pieces of one reference, at most cuts + 1.
 void cut(const Reference& whole, std::uint32_t cuts, const MedianPlanes& planes, const Geometry& geometry,
-         std::vector<Reference>& out) {
+         LargeVector<Reference>& out) {
   std::vector<Piece> open{{whole, cuts}};
   while (!open.empty()) {
     const Piece piece = open.back();
@@ -150,7 +150,7 @@ double choose_scale(const std::vector<float>& priorities, double budget) {
 
 }  // namespace
 
-std::vector<Reference> presplit(std::vector<Reference> references, const Geometry& geometry, float budget) {
+LargeVector<Reference> presplit(LargeVector<Reference> references, const Geometry& geometry, float budget) {
   const std::size_t count = references.size();
   if (count == 0) return references;
   std::vector<float> priorities(count);
@@ -165,7 +165,7 @@ std::vector<Reference> presplit(std::vector<Reference> references, const Geometr
   const double scale = choose_scale(priorities, static_cast<double>(count) * double{budget});
 
   // Cut per chunk, then put the chunks together.
-  std::vector<std::vector<Reference>> pieces(boxes.size());
+  std::vector<LargeVector<Reference>> pieces(boxes.size());
   for_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     pieces[chunk].reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {

@@ -9,6 +9,6 @@ namespace boxwood {
 /// times as many references as there are, no more are added, and fewer where few triangles have boxes much emptier than
 /// the others'. Pieces of a triangle follow one another. Karras and Aila 2013, "Fast Parallel Construction of
 /// High-Quality Bounding Volume Hierarchies", section 4.3. Parallel, O(n); the same for any number of threads.
-std::vector<Reference> presplit(std::vector<Reference> references, const Geometry& geometry, float budget);
+LargeVector<Reference> presplit(LargeVector<Reference> references, const Geometry& geometry, float budget);
 
 }  // namespace boxwood

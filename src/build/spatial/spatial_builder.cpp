@@ -67,7 +67,7 @@ class SpatialBuilder {
         array_(size_ + (geometry_ ? static_cast<std::size_t>(double{options_.budget} * size_) : 0)),
         dividers_([this] { return FragmentDivider(array_, geometry_, options_.unsplit); }),
         sinks_([this] { return make_sink(); }) {
-    const std::vector<Reference> references = std::move(input.references);
+    const LargeVector<Reference> references = std::move(input.references);
     std::copy(references.begin(), references.end(), array_.data());
   }
 
@@ -87,8 +87,8 @@ class SpatialBuilder {
     Tree tree;
     tree.clipped_leaves = geometry_ != nullptr;
     const Sizes sizes = sizes_of(*root);
-    reserve_large(tree.nodes, sizes.nodes);
-    reserve_large(tree.references, sizes.references);
+    tree.nodes.reserve(sizes.nodes);
+    tree.references.reserve(sizes.references);
     tree.nodes.emplace_back();
     stitch(*root, 0, tree);
     return tree;

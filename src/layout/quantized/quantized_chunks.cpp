@@ -84,7 +84,7 @@ class ChunkEncoder {
 
  private:
   void number_leaves() {
-    std::vector<std::uint32_t> references;
+    Tree::References references;
     references.reserve(tree_.references.size());
     out_.leaf_offsets.push_back(0);
     const auto add = [&](std::uint32_t place) {

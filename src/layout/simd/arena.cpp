@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "boxwood/error.h"
-#include "math/large_memory.h"
 
 namespace boxwood {
 
-Arena::Arena(std::size_t bytes) : bytes_(bytes) {
+Arena::Arena(std::size_t bytes, Holds holds) : bytes_(bytes) {
   if (bytes == 0) return;
-  data_ = static_cast<std::byte*>(map_zeroed(bytes));
+  data_ = static_cast<std::byte*>(allocate_held(bytes, holds));
   if (data_) return;
   throw Error(
       fmt::format("no {} bytes of memory for the acceleration structure; free some or take a compact layout", bytes));
@@ -27,7 +26,7 @@ Arena& Arena::operator=(Arena&& other) noexcept {
 }
 
 Arena::~Arena() {
-  if (data_) unmap_zeroed(data_, bytes_);
+  if (data_) free_held(data_, bytes_);
 }
 
 }  // namespace boxwood

@@ -2,15 +2,17 @@
 #include <cstddef>
 #include <span>
 
+#include "math/large_memory.h"
+
 namespace boxwood {
 
-/// A block of zeroed memory, aligned to cache lines, in huge pages where the system grants them: a traversal that jumps
+/// A block of memory, aligned to cache lines, in huge pages where the system grants them: a traversal that jumps
 /// over megabytes of 4 KiB pages spends its time in the address tables.
 class Arena {
  public:
   Arena() = default;
   /// Throws Error when there is not enough memory.
-  explicit Arena(std::size_t bytes);
+  explicit Arena(std::size_t bytes, Holds holds = Holds::zeros);
   Arena(Arena&& other) noexcept;
   Arena& operator=(Arena&& other) noexcept;
   ~Arena();

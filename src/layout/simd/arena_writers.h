@@ -51,6 +51,8 @@ class NodeWriter {
       store_transposed(upper, planes + N + lane, 2 * N);
     }
     std::copy_n(children_, N, node.children);
+    constexpr std::size_t written = sizeof(node.planes) + sizeof(node.children);
+    std::memset(place + written, 0, sizeof(node) - written);
   }
 
  private:

@@ -46,8 +46,10 @@ class Placement {
   std::size_t inner_nodes() const { return inner_nodes_; }
   const WalkNeeds& needs() const { return needs_; }
 
+  /// Writes every byte: `base` may hold anything.
   void write(const Mesh& mesh, std::byte* base) const {
     const LeafWriter<L> leaves(tree_, mesh);
+    std::fill_n(base, root_place, std::byte{0});
     if (pieces_.empty()) return write_root_of_leaf(leaves, base);
     tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t p) {
       const TreePiece& piece = pieces_[p];
@@ -103,7 +105,14 @@ class Placement {
     for (std::uint32_t c = node.count; c-- > 0;) {
       if (!children[c].is_leaf()) push(node.first + c, next_node -= sizeof(WideNode<N>));
     }
-    return leaves_begin + round_up(next_leaf - leaves_begin, cache_line);
+    return end_of_leaves(base, leaves_begin, next_leaf);
+  }
+
+  /// The end of a cluster, zero up to there.
+  static std::size_t end_of_leaves(std::byte* base, std::size_t begin, std::size_t end) {
+    const std::size_t padded = begin + round_up(end - begin, cache_line);
+    std::fill(base + end, base + padded, std::byte{0});
+    return padded;
   }
 
   void write_root_of_leaf(const LeafWriter<L>& leaves, std::byte* base) const {
@@ -112,6 +121,7 @@ class Placement {
     if (!tree_.empty()) {
       root.add(tree_.nodes[0], wide_reference(leaf_place, true));
       leaves.write(tree_.nodes[0], base + leaf_place);
+      end_of_leaves(base, leaf_place, leaf_place + LeafWriter<L>::bytes(tree_.nodes[0]));
     }
     root.write(base + root_place);
   }
@@ -154,7 +164,7 @@ std::optional<WideArena> encode_wide(const Tree& tree, const Mesh& mesh) {
   const Placement<N, L> placement(tree);
   const WalkNeeds& needs = placement.needs();
   if (needs.widest > N || needs.fixed_order || needs.stack > wide_stack_limit) return {};
-  WideArena out{Arena(placement.bytes()), {}, {}};
+  WideArena out{Arena(placement.bytes(), Holds::anything), {}, {}};
   out.view = {out.memory.data(), wide_reference(cache_line, false), reach_of(tree), needs.stack,
               placement.bytes() > small_tree_bytes};
   const std::size_t nodes = std::max<std::size_t>(placement.inner_nodes(), 1);  // a leaf alone has a node above it

@@ -1,6 +1,5 @@
 #include "refine/optimal_collapse/collapse_costs.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,6 +16,8 @@ namespace {
 constexpr std::uint32_t narrow = 8;
 /// Subtrees that tasks solve, about.
 constexpr std::size_t jobs = 256;
+/// Nodes that one of them takes at a time.
+constexpr std::size_t job_nodes = 4096;
 
 /// pairs[i]: least cost of two children as i + 2 nodes, where first[j] and second[j] are the costs of either as up to
 /// j + 1; the last of pairs is arbitrary.
@@ -97,21 +98,24 @@ void CollapseCosts::solve_all() {
     }
     open = std::move(next);
   }
-  tbb::enumerable_thread_specific<LargeVector<std::uint32_t>> orders;
-  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { solve_below<Width>(open[j], orders.local()); });
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { solve_below<Width>(open[j]); });
   for (std::size_t i = top.size(); i-- > 0;) solve<Width>(top[i]);
 }
 
-/// Children before parents: the reverse of an order that visits parents first.
+/// Children before parents: the reverse of an order that visits parents first. What a large subtree has left after
+/// job_nodes of them is for other tasks: it can be most of the tree.
 template <std::uint32_t Width>
-void CollapseCosts::solve_below(std::uint32_t root, LargeVector<std::uint32_t>& order) {
-  order.assign(1, root);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Tree::Node& node = tree_.nodes[order[i]];
+void CollapseCosts::solve_below(std::uint32_t root) {
+  std::vector<std::uint32_t> order, open{root};
+  while (!open.empty() && order.size() < job_nodes) {
+    order.push_back(open.back());
+    open.pop_back();
+    const Tree::Node& node = tree_.nodes[order.back()];
     if (node.is_leaf()) continue;
-    order.push_back(node.first);
-    order.push_back(node.first + 1);
+    open.push_back(node.first + 1);
+    open.push_back(node.first);
   }
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t j) { solve_below<Width>(open[j]); });
   for (std::size_t i = order.size(); i-- > 0;) solve<Width>(order[i]);
 }
 

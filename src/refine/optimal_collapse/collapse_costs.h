@@ -39,7 +39,7 @@ class CollapseCosts {
   template <std::uint32_t Width>
   void solve(std::uint32_t node);
   template <std::uint32_t Width>
-  void solve_below(std::uint32_t root, LargeVector<std::uint32_t>& order);
+  void solve_below(std::uint32_t root);
   const float* costs_of(std::uint32_t node) const { return &costs_[std::size_t{node} * stride_]; }
   float leaf_cost(const Box& bounds, std::uint32_t references) const;
 

@@ -19,7 +19,7 @@ class CollapsedWriter {
       : tree_(tree), costs_(costs), chooser_(tree, costs, options) {}
 
   void operator()(const CollapsedNode& item, Tree::Node& node, std::vector<CollapsedNode>& children,
-                  std::vector<std::uint32_t>& references) {
+                  Tree::References& references) {
     node.bounds = tree_.nodes[item.node].bounds;
     if (!costs_.is_leaf(item.node)) {
       node.axis = chooser_.choose(item.node, children) & 3;
@@ -37,7 +37,7 @@ class CollapsedWriter {
 
  private:
   /// Parts of one primitive that meet in a leaf become one. Recursion is no deeper than a leaf has references.
-  void append_references(std::uint32_t number, std::size_t leaf_begin, std::vector<std::uint32_t>& references) const {
+  void append_references(std::uint32_t number, std::size_t leaf_begin, Tree::References& references) const {
     const Tree::Node& node = tree_.nodes[number];
     if (!node.is_leaf()) {
       append_references(node.first, leaf_begin, references);

@@ -1,8 +1,11 @@
 #include "refine/reinsert/link_tree.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -101,15 +104,22 @@ class Linker {
 }  // namespace
 
 bool is_binary(const Tree& tree) {
-  return std::ranges::all_of(tree.nodes, [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
+  using Range = tbb::blocked_range<const Tree::Node*>;
+  const Tree::Node* const begin = tree.nodes.data();
+  return tbb::parallel_reduce(
+      Range(begin, begin + tree.nodes.size(), 1 << 13), true,
+      [](const Range& range, bool binary) {
+        return binary && std::all_of(range.begin(), range.end(),
+                                     [](const Tree::Node& node) { return node.is_leaf() || node.count == 2; });
+      },
+      std::logical_and<>());
 }
 
 LinkTree link(const Tree& tree) { return Linker(tree).run(); }
 
 Tree relink(const LinkTree& links, const Tree& tree) {
   // Of the root, which has no edge, `no_edge`.
-  const auto write = [&](Edge edge, Tree::Node& node, std::vector<Edge>& children,
-                         std::vector<std::uint32_t>& references) {
+  const auto write = [&](Edge edge, Tree::Node& node, std::vector<Edge>& children, Tree::References& references) {
     const bool root = edge == LinkTree::no_edge;
     const Child child = root ? Child{0} : links.child(edge);
     if (child.is_leaf()) {
