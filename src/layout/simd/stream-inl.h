@@ -17,6 +17,7 @@
 
 #include "layout/simd/leaf_steps-inl.h"
 #include "layout/simd/load_rays-inl.h"
+#include "layout/simd/ray_pairs-inl.h"
 #include "layout/simd/single-inl.h"
 #include "layout/simd/slots-inl.h"
 
@@ -28,6 +29,9 @@ namespace HWY_NAMESPACE {
 inline constexpr std::uint32_t most_in_stream = 1024;
 /// Rays gathered by octant at a time.
 inline constexpr std::size_t stream_block = 2048;
+/// At nodes that no more of a stream's rays enter they go on by themselves: to open one costs as much as the steps of
+/// some rays.
+inline constexpr std::uint32_t few_rays = 4;
 /// Levels of nodes that a stream has room for, and entries of their lists. Nodes below go ray by ray.
 inline constexpr std::uint32_t stream_depth = 48;
 inline constexpr std::uint32_t stream_entries = 8192;
@@ -71,6 +75,19 @@ struct LeafQueue {
     }
     size += count;
   }
+
+  /// Has one ray wait for each of some leaves.
+  template <class Leaves>
+  HWY_INLINE void add(const WideView& view, const Leaves& entered, std::uint32_t begin, std::uint32_t end) {
+    std::copy(entered.rays + begin, entered.rays + end, rays + size);
+    std::copy(entered.references + begin, entered.references + end, references + size);
+    const std::uint32_t first = size, first_leaf = leaves;
+    for (std::uint32_t i = 0; i < end - begin; ++i) {
+      blocks[first + i] = &Store::block(view, entered.references[begin + i], 0, buffers[first_leaf + i]);
+    }
+    size += end - begin;
+    leaves += end - begin;
+  }
 };
 
 template <class Store>
@@ -80,6 +97,8 @@ struct StreamMemory {
   alignas(64) std::uint16_t met[stream_entries];   // which children of the level's node each of them meets, a bit each
   StreamLevel levels[stream_depth];
   LeafQueue<Store> queue;
+  RaysAtNodes<Store> single;
+  typename RaysAtNodes<Store>::Leaves single_leaves;
 
   HWY_INLINE Slot& slot(std::uint32_t offset) {
     return *reinterpret_cast<Slot*>(reinterpret_cast<std::byte*>(slots) + offset);
@@ -116,8 +135,11 @@ class AnyStream {
     if (size != 0) walk(size);
   }
 
-  /// Of all streams so far: how many rays entered a node together, on average.
-  double rays_per_node() const { return static_cast<double>(visits_) / static_cast<double>(nodes_); }
+  /// Of all streams so far: how many rays entered a node together, on average, those that went on by themselves
+  /// counted as one at each.
+  double rays_per_node() const {
+    return static_cast<double>(visits_ + single_visits_) / static_cast<double>(nodes_ + single_visits_);
+  }
 
  private:
   /// Prepares the rays that can hit something; returns how many.
@@ -161,13 +183,32 @@ class AnyStream {
       const std::uint32_t begin = level->begin + room_for(level->size);
       const std::uint32_t count = list_rays(*level, lane, memory_.rays + begin);
       const WideReference child = level->children[lane];
-      if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
+      if (count <= few_rays) {
+        memory_.single.add(memory_.rays + begin, child, count);
+        while (memory_.single.enough()) step_single();
+      } else if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
         one_by_one(child, memory_.rays + begin, count);
       } else {
         open(*++level, child, begin, count);
       }
     }
+    while (!memory_.single.empty()) step_single();
     test_leaves();
+  }
+
+  /// Rays that go on by themselves take a step.
+  HWY_NOINLINE void step_single() {
+    const WideView view = view_;  // copies stay in registers
+    auto& entered = memory_.single_leaves;
+    single_visits_ += memory_.single.step(
+        view, [this](std::uint32_t offset) HWY_ATTR -> const Slot& { return memory_.slot(offset); }, entered);
+    LeafQueue<Store>& queue = memory_.queue;
+    for (std::uint32_t done = 0; done < entered.size;) {
+      const std::uint32_t end = std::min(entered.size, done + queue.most - queue.leaves);
+      queue.add(view, entered, done, end);
+      done = end;
+      if (queue.size >= queue.enough) test_leaves();
+    }
   }
 
   /// Has the rays of a level wait for those of its leaves that they enter.
@@ -307,7 +348,7 @@ class AnyStream {
   std::uint8_t* blocked_;
   StreamMemory<Store>& memory_;
   std::uint32_t near_row_[3] = {};
-  std::uint64_t visits_ = 0, nodes_ = 0;
+  std::uint64_t visits_ = 0, nodes_ = 0, single_visits_ = 0;
 };
 
 /// The rays of a block, octant by octant.
@@ -326,7 +367,7 @@ struct Octants {
 };
 
 /// Streams are for rays that share nodes: when fewer than this enter one together, rays in flight are faster.
-inline constexpr double least_together = 7.5;
+inline constexpr double least_together = 4;
 /// How many show whether they do, and how many are traced in flight before the next look.
 inline constexpr std::size_t stream_probe = 256, stream_pause = 8 * stream_block;
 /// Fewer are not worth their lists, even those that lie between coherent groups, which are not looked at first.
