@@ -46,8 +46,7 @@ class SortedCodes {
         keys_[i] = code << 32 | i;
       }
     });
-    RawArray<std::uint64_t> scratch(references.size());
-    radix_sort(keys_, scratch, 32);
+    radix_sort(keys_, 32);
   }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(keys_.size()); }

@@ -59,7 +59,6 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
   const float scale = size > 0 ? std::min(cells / size, std::numeric_limits<float>::max()) : 0;
 
   MortonOrder order{RawArray<std::uint64_t>(references.size()), index_bits, half_area(bounds) / 4};
-  RawArray<std::uint64_t> scratch(references.size());
   tbb::parallel_for(Range(0, references.size(), grain), [&](const Range& range) {
     const auto cell = [&](float offset) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(offset * scale, cells - 1)));
@@ -70,7 +69,7 @@ MortonOrder morton_order(std::span<const Reference> references, unsigned code_bi
       order.keys[i] = code << index_bits | i;
     }
   });
-  radix_sort(order.keys, scratch, index_bits);
+  radix_sort(order.keys, index_bits);
   return order;
 }
 
