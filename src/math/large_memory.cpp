@@ -21,6 +21,15 @@ namespace boxwood {
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{1} << 21;
+constexpr std::align_val_t cache_line{64};
+
+/// Memory that outlives its stage and is too small for huge pages; the heap keeps it for the next.
+void* from_heap(std::size_t bytes, Holds holds) noexcept {
+  void* memory = ::operator new(bytes, cache_line, std::nothrow);
+  if (memory && holds == Holds::zeros) std::memset(memory, 0, bytes);
+  return memory;
+}
+void to_heap(void* memory) noexcept { ::operator delete(memory, cache_line); }
 
 #ifdef BOXWOOD_MAPS_LARGE_MEMORY
 
@@ -168,11 +177,8 @@ void free_large(void* memory) noexcept { ::operator delete (memory, std::align_v
 
 void* allocate_held(std::size_t bytes, Holds holds) noexcept {
   const std::size_t size = mapped_bytes(bytes);
-  if (size % huge_page != 0) {
-    if (size > huge_page) return map(size);
-    void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    return memory == MAP_FAILED ? nullptr : memory;
-  }
+  if (size < huge_page) return from_heap(size, holds);
+  if (size % huge_page != 0) return map(size);
   try {
     const Blocks::Memory memory = blocks().allocate(size, size + size / 8);
     if (holds == Holds::zeros && !memory.fresh) std::memset(memory.begin, 0, bytes);
@@ -184,19 +190,15 @@ void* allocate_held(std::size_t bytes, Holds holds) noexcept {
 
 void free_held(void* memory, std::size_t bytes) noexcept {
   const std::size_t size = mapped_bytes(bytes);
+  if (size < huge_page) return to_heap(memory);
   if (size % huge_page == 0) return free_large(memory);
   munmap(memory, size);
 }
 
 #else
 
-void* allocate_held(std::size_t bytes, Holds holds) noexcept {
-  void* memory = ::operator new (bytes, std::align_val_t{huge_page}, std::nothrow);
-  if (memory && holds == Holds::zeros) std::memset(memory, 0, bytes);
-  return memory;
-}
-
-void free_held(void* memory, std::size_t) noexcept { ::operator delete (memory, std::align_val_t{huge_page}); }
+void* allocate_held(std::size_t bytes, Holds holds) noexcept { return from_heap(bytes, holds); }
+void free_held(void* memory, std::size_t) noexcept { to_heap(memory); }
 
 #endif
 
