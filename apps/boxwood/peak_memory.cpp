@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "boxwood/memory.h"
+
 namespace boxwood::cli {
 namespace {
 
@@ -29,7 +31,9 @@ bool reset_peak() {
 }  // namespace
 
 std::optional<PeakMemory> peak_memory_of(const std::function<void()>& work) {
-  malloc_trim(0);  // memory that was freed but kept would hide as much of what `work` takes
+  // Memory that was freed but kept would hide as much of what `work` takes.
+  release_kept_memory();
+  malloc_trim(0);
   const bool told = reset_peak();
   const auto before = status_bytes("VmRSS");
   work();
