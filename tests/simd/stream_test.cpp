@@ -54,35 +54,47 @@ struct Expected {
   std::vector<std::uint8_t> blocked;
 };
 
-TEST(Streams, AnswerLikeBruteForceOnEveryInstructionSet) {
-  for (const char* name : {"random", "grid", "far_away"}) {
-    const Scene scene = test_scene(name);
-    const Mesh& mesh = scene.meshes.front();
-    Contents contents;
-    contents.mesh = &mesh;
-    const Expected expected(scene);
-    for (const std::int64_t target : testable_targets()) {
-      if (target > HWY_AVX2) continue;  // no streams
-      const OnlyTarget only(target);
-      for (const std::uint32_t width : {8u, 16u}) {
-        const Tree tree = test_tree(mesh, width, 11);
-        expected.compare(*encode_simd_wide(width, tree, contents, {}), name);
-        expected.compare(*encode_compressed(width, tree, mesh), name);
-      }
+/// On every instruction set that has streams, through plain nodes and packed ones.
+void expect_like_brute_force(const Scene& scene, std::uint32_t leaf, const char* what) {
+  const Mesh& mesh = scene.meshes.front();
+  Contents contents;
+  contents.mesh = &mesh;
+  const Expected expected(scene);
+  for (const std::int64_t target : testable_targets()) {
+    if (target > HWY_AVX2) continue;  // no streams
+    const OnlyTarget only(target);
+    for (const std::uint32_t width : {8u, 16u}) {
+      const Tree tree = test_tree(mesh, width, leaf);
+      expected.compare(*encode_simd_wide(width, tree, contents, {}), what);
+      expected.compare(*encode_compressed(width, tree, mesh), what);
     }
   }
 }
 
-TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
+/// Small triangles anywhere in a box.
+Scene scattered_triangles(int count, float size) {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   TestRandom random(5);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Vec3 a = random.point(-1, 1);
-    add_triangle(positions, triangles, a, a + random.point(-0.2f, 0.2f), a + random.point(-0.2f, 0.2f));
+    add_triangle(positions, triangles, a, a + random.point(-size, size), a + random.point(-size, size));
   }
   Scene scene;
   scene.add_mesh(std::move(positions), std::move(triangles));
+  return scene;
+}
+
+TEST(Streams, AnswerLikeBruteForceOnEveryInstructionSet) {
+  for (const char* name : {"random", "grid", "far_away"}) expect_like_brute_force(test_scene(name), 11, name);
+}
+
+TEST(Streams, WhereFewRaysShareNodes_AnswerLikeBruteForce) {
+  expect_like_brute_force(scattered_triangles(3000, 0.15f), 1, "many small triangles");
+}
+
+TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
+  const Scene scene = scattered_triangles(100, 0.2f);
   Contents contents;
   contents.mesh = &scene.meshes.front();
   const Expected expected(scene);
