@@ -76,7 +76,8 @@ const std::vector<Preset>& presets() {
        "ploc(radius=2, leaf=8, block=8, run=8, slack=2, group=16, width=16) > wide(16)"},
       {"default", "ploc(block=4, run=4, slack=2.5) > reinsert > optimal-collapse(8) > wide(8)",
        "a good tree, small in memory, quick to build",
-       "ploc(leaf=8, block=8, run=8, slack=1.3) > reinsert(rounds=1) > optimal-collapse(16, leaf=8, block=8) > wide(16)"},
+       "ploc(leaf=8, block=8, run=8, slack=1.3) > reinsert(rounds=1) > optimal-collapse(16, leaf=8, block=8) > "
+       "wide(16)"},
       {"best", "spatial(alpha=0.001, bins=8, block=4) > reinsert > optimal-collapse(8) > wide(8)",
        "fewest tests per ray; slow to build",
        "spatial(alpha=0.001, bins=8, leaf=8, block=8) > reinsert > optimal-collapse(16, leaf=8, block=8) > wide(16)"},
