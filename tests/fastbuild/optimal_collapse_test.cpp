@@ -15,7 +15,8 @@ struct Limits {
 };
 
 double block_cost(std::uint32_t references, const Limits& limits) {
-  return static_cast<double>((references + limits.block - 1) / limits.block);
+  const std::uint32_t blocks = (references + limits.block - 1) / limits.block;
+  return blocks;
 }
 
 /// What the collapse minimises, of a tree as it is.

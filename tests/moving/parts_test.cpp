@@ -86,7 +86,7 @@ TEST(RebuildParts, AnyChoice_GivesAValidTreeOverTheSamePrimitives) {
         if (p % 3 == 1) third.push_back(p);
       }
       // Trees of parts have leaves of 3; those above have leaves of up to 9 parts, more than a node may have children.
-      const auto build = [&](LargeVector<Reference> references, bool of_triangles) {
+      const auto build = [&](const LargeVector<Reference>& references, bool of_triangles) {
         std::vector<Box> boxes(of_triangles ? s.boxes.size() : count);
         for (const Reference& reference : references) boxes[reference.primitive] = reference.box();
         return test::split_tree(boxes, {k, of_triangles ? 3u : 9u, true});

@@ -209,6 +209,7 @@ std::vector<float> kept_of(std::size_t rays, std::size_t run, std::size_t most) 
   for (std::size_t i = 0; i < rays; ++i) numbered[i].t_far = static_cast<float>(i);
   keep_spread_runs(numbered, run, most);
   std::vector<float> out;
+  out.reserve(numbered.size());
   for (const Ray& ray : numbered) out.push_back(ray.t_far);
   return out;
 }
