@@ -6,6 +6,7 @@
 
 #include "fastbuild/trees.h"
 #include "refine/optimal_collapse/collapse_costs.h"
+#include "support/lopsided_tree.h"
 
 namespace boxwood {
 namespace {
@@ -80,26 +81,9 @@ TEST(OptimalCollapse, SmallTree_CostsWhatTryingEverythingFinds) {
   }
 }
 
-/// Each inner node has a leaf and all others as its children: most of the tree is in one subtree.
-Tree chain(std::uint32_t leaves) {
-  Tree tree;
-  tree.nodes.resize(2 * leaves - 1);
-  for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-    Tree::Node& node = tree.nodes[i];
-    const std::uint32_t begin = i / 2;
-    node.bounds =
-        Box{Vec3{static_cast<float>(begin), 0, 0}, Vec3{static_cast<float>(i % 2 != 0 ? begin + 1 : leaves), 1, 1}};
-    node.leaf = i % 2 != 0 || i + 1 == tree.nodes.size();
-    node.first = node.leaf != 0 ? begin : i + 1;
-    node.count = node.leaf != 0 ? 1 : 2;
-    if (node.leaf != 0) tree.references.push_back(begin);
-  }
-  return tree;
-}
-
 TEST(OptimalCollapse, LopsidedLargeTree_CostsOfEachNodeFollowFromItsChildren) {
-  constexpr std::uint32_t leaves = 20000;
-  const Tree tree = chain(leaves);
+  constexpr std::uint32_t leaves = 100000;
+  const Tree tree = test::lopsided_tree(leaves);
   const CollapseCosts costs(tree, {.k = 8, .leaf = 4, .block = 4});
   EXPECT_EQ(costs.references(0), leaves);
   for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {

@@ -4,41 +4,21 @@
 #include <tbb/task_arena.h>
 
 #include <numeric>
-#include <utility>
 #include <vector>
+
+#include "support/lopsided_tree.h"
 
 namespace boxwood {
 namespace {
 
-/// References [begin, end) under one node.
-struct Range {
-  std::uint32_t begin, end;
-};
-
-/// A node has its first reference and all others as children, three times in four: most of the tree is in one subtree.
 Tree lopsided(std::uint32_t references, int threads) {
-  const auto expand = [](const Range& range, Tree::Node& node, std::vector<Range>& children, Tree::References& out) {
-    node.bounds = Box{Vec3{static_cast<float>(range.begin), 0, 0}, Vec3{static_cast<float>(range.end), 1, 1}};
-    if (range.end - range.begin == 1) {
-      node.leaf = 1;
-      node.count = 1;
-      node.first = static_cast<std::uint32_t>(out.size());
-      out.push_back(range.begin);
-      return;
-    }
-    const std::uint32_t middle = range.begin % 4 == 0 ? (range.begin + range.end) / 2 : range.begin + 1;
-    children.push_back({range.begin, middle});
-    children.push_back({middle, range.end});
-  };
   tbb::task_arena arena(threads);
-  return arena.execute([&] {
-    return assemble(Range{0, references}, 2 * references - 1, references, [&] { return expand; });
-  });
+  return arena.execute([&] { return test::lopsided_tree(references); });
 }
 
 TEST(Assemble, LopsidedTree_HasEveryNodeOnceBelowItsParent) {
-  constexpr std::uint32_t references = 40000;
-  const Tree tree = lopsided(references, 2);
+  constexpr std::uint32_t references = 200000;
+  const Tree tree = lopsided(references, 4);
   ASSERT_EQ(tree.nodes.size(), 2 * references - 1);
   std::vector<int> children_of(tree.nodes.size()), leaves_of(references);
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -63,9 +43,9 @@ TEST(Assemble, LopsidedTree_HasEveryNodeOnceBelowItsParent) {
 }
 
 TEST(Assemble, AnyNumberOfThreads_TheSameTree) {
-  const Tree one = lopsided(30000, 1);
+  const Tree one = lopsided(100000, 1);
   for (const int threads : {2, 4}) {
-    const Tree many = lopsided(30000, threads);
+    const Tree many = lopsided(100000, threads);
     EXPECT_EQ(many.references, one.references);
     ASSERT_EQ(many.nodes.size(), one.nodes.size());
     for (std::size_t i = 0; i < one.nodes.size(); ++i) {
