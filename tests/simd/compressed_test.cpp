@@ -38,10 +38,14 @@ std::vector<Box> boxes_to_round() {
   return out;
 }
 
-TEST(Quantize, AnyValueInAnyBox_IsEnclosedByItsGridLines) {
+/// Of grids with steps of so many significant bits.
+class QuantizeTo : public testing::TestWithParam<int> {};
+
+TEST_P(QuantizeTo, AnyValueInAnyBox_IsEnclosedByItsGridLines) {
+  const int bits = GetParam();
   TestRandom random(5);
   for (const Box& box : boxes_to_round()) {
-    const Grid grid = grid_over(box);
+    const Grid grid = grid_over(box, bits);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       ASSERT_GE(grid.at(axis, 255), box.upper[axis]);
       for (int i = 0; i < 20; ++i) {
@@ -59,16 +63,50 @@ TEST(Quantize, AnyValueInAnyBox_IsEnclosedByItsGridLines) {
   }
 }
 
-TEST(Quantize, Grid_IsAtMostTwiceAsLargeAsItsBox) {
+TEST_P(QuantizeTo, Grid_IsLargerThanItsBoxByNoMoreThanItsStepsAreCoarse) {
+  const int bits = GetParam();
   for (const Box& box : boxes_to_round()) {
-    const Grid grid = grid_over(box);
+    const Grid grid = grid_over(box, bits);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float size = box.upper[axis] - box.lower[axis];
-      if (size < 1e-6f * std::fabs(box.upper[axis]) || size < 1e-25f) continue;  // as fine as floats there
-      EXPECT_LT(std::ldexp(255.0f, grid.exponent[axis]), 2.01f * size);
+      if (size < 1e-5f * std::fabs(box.upper[axis]) || size < 1e-25f) continue;  // as fine as floats there
+      EXPECT_LT(255 * grid.step[axis], size * (1.01f + std::ldexp(1.0f, 1 - bits)));
     }
   }
 }
+
+TEST_P(QuantizeTo, AllStepsOfAGrid_AreFloats) {
+  const int bits = GetParam();
+  for (const Box& box : boxes_to_round()) {
+    const Grid grid = grid_over(box, bits);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (int q = 0; q < 256; ++q) {
+        ASSERT_EQ(static_cast<double>(static_cast<float>(q) * grid.step[axis]), q * double{grid.step[axis]});
+      }
+    }
+  }
+}
+
+template <class Node>
+void expect_keeps_grids() {
+  for (const Box& box : boxes_to_round()) {
+    const Grid grid = grid_over(box, bits_of_step<Node>);
+    Node node;
+    set_grid(grid, node);
+    const Grid kept = grid_of(node);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ASSERT_EQ(kept.origin[axis], grid.origin[axis]);
+      ASSERT_EQ(kept.step[axis], grid.step[axis]);
+    }
+  }
+}
+TEST(Quantize, Nodes_KeepTheGridsMadeForThem) {
+  expect_keeps_grids<QuantizedNode8>();
+  expect_keeps_grids<QuantizedNode16>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, QuantizeTo, testing::Values(1, 2, 8, 16),
+                         [](const auto& test) { return std::to_string(test.param); });
 
 struct CompressedCase {
   const char* scene;

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "layout/compressed/open_quantized-inl.h"
+#include "layout/compressed/packed_pass-inl.h"
 #include "layout/compressed/quantized_store-inl.h"
 #include "layout/simd/queries-inl.h"
 

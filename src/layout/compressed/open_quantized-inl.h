@@ -22,8 +22,8 @@ class OpenNode<QuantizedStore<Node, N>> {
       : node_(*reinterpret_cast<const Node*>(place_of(view, reference))) {}
 
   /// A plane's distance is (origin + q * step) / direction - offset, taken as q * (step / direction) plus what all
-  /// children share. The first product is exact; what the sum rounds once more, and the plane once less, is at most two
-  /// parts in 2^24 of the largest coordinate, for which the widening of PreparedRay has room.
+  /// children share. The first product is rounded, the sum once more, and the plane once less: that is at most four
+  /// parts in 2^24 of the largest coordinate, for which PreparedRay's widening by 32 has room.
   template <class D>
   HWY_INLINE BoxHits<D> hit(D d, int begin, const Slot& slot) const {
     const Axes axes(node_, slot);
@@ -52,17 +52,27 @@ class OpenNode<QuantizedStore<Node, N>> {
     alignas(16) float step[4], near_begin[4], far_begin[4];
 
     HWY_INLINE Axes(const Node& node, const Slot& slot) {
-      const hn::FixedTag<float, 4> d;
-      const hn::RebindToSigned<decltype(d)> di;
-      const auto exponent = hn::PromoteTo(di, hn::LoadU(hn::Rebind<std::uint8_t, decltype(d)>(), node.exponent));
-      // The fourth lane holds `inner`; shifted, no slow number.
-      const auto size = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
-      // The fourth lanes hold what comes next in memory; of the node nothing: its bits might be a slow denormal.
-      const auto origin = hn::MaskedLoad(hn::FirstN(d, 3), d, node.origin);
-      const auto inverse = hn::LoadU(d, slot.inverse);
-      hn::Store(hn::Mul(size, inverse), d, step);
+      const FourFloats d;
+      const auto origin = origins(node), inverse = hn::LoadU(d, slot.inverse);
+      hn::Store(hn::Mul(steps(node), inverse), d, step);
       hn::Store(hn::MulSub(origin, inverse, hn::LoadU(d, slot.near_offset)), d, near_begin);
       hn::Store(hn::MulSub(origin, inverse, hn::LoadU(d, slot.far_offset)), d, far_begin);
+    }
+
+    // Fourth lanes are of no use, but no slow denormals.
+    static HWY_INLINE hn::Vec<FourFloats> origins(const QuantizedNode8& node) {
+      return hn::MaskedLoad(hn::FirstN(FourFloats(), 3), FourFloats(), node.origin);
+    }
+    static HWY_INLINE hn::Vec<FourFloats> origins(const QuantizedNode16& node) {
+      return hn::Load(FourFloats(), node.origin);
+    }
+    static HWY_INLINE hn::Vec<FourFloats> steps(const QuantizedNode8& node) {
+      const hn::RebindToSigned<FourFloats> d;
+      const auto exponent = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, FourFloats>(), node.exponent));
+      return hn::BitCast(FourFloats(), hn::ShiftLeft<23>(exponent));
+    }
+    static HWY_INLINE hn::Vec<FourFloats> steps(const QuantizedNode16& node) {
+      return hn::Load(FourFloats(), node.step);
     }
   };
 

@@ -26,17 +26,23 @@ HWY_INLINE hn::Vec<D> shift_from_above(D d, hn::Vec<D> value, hn::Vec<D> shift) 
 #endif
 }
 
-/// A register full of numbers of `bits` bits each, from bit `begin` of a stream on. Two words hold any of them: the one
-/// it begins in and the next.
+/// A register full of numbers, each from the bit `place` of a stream on. Two words hold any of them: the one it begins
+/// in and the next.
+template <class D>
+HWY_INLINE hn::Vec<D> unpack_at(D d, const std::uint32_t* words, hn::Vec<D> place, hn::Vec<D> mask) {
+  const auto word = hn::IndicesFromVec(d, hn::ShiftRight<5>(place));
+  const auto shift = hn::And(place, hn::Set(d, 31));
+  const auto low = hn::Shr(hn::TableLookupLanes(hn::LoadU(d, words), word), shift);
+  const auto high = shift_from_above(d, hn::TableLookupLanes(hn::LoadU(d, words + 1), word), shift);
+  return hn::And(hn::Or(low, high), mask);
+}
+
+/// A register full of numbers of `bits` bits each, from bit `begin` of a stream on.
 template <class D>
 HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint32_t* words, std::uint32_t begin, std::uint32_t bits) {
   const auto place = hn::Add(hn::Mul(hn::Iota(d, 0), hn::Set(d, bits)), hn::Set(d, begin & 31));
-  const auto word = hn::IndicesFromVec(d, hn::ShiftRight<5>(place));
-  const auto shift = hn::And(place, hn::Set(d, 31));
-  const std::uint32_t* first = words + (begin >> 5);
-  const auto low = hn::Shr(hn::TableLookupLanes(hn::LoadU(d, first), word), shift);
-  const auto high = shift_from_above(d, hn::TableLookupLanes(hn::LoadU(d, first + 1), word), shift);
-  return hn::And(hn::Or(low, high), hn::Set(d, static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1)));
+  return unpack_at(d, words + (begin >> 5), place,
+                   hn::Set(d, static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1)));
 }
 
 /// Which corner is vertex `vertex` of each triangle from `begin` on.
@@ -103,6 +109,15 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const PackedLeafHead&
 }
 
 #endif
+
+/// The number of one triangle of a packed leaf.
+HWY_INLINE std::uint32_t number_of_packed(const std::uint32_t* words, std::uint32_t triangle) {
+  const PackedLeafHead head(words[0]);
+  const std::uint32_t bits = head.bits[3], begin = head.begin_of_numbers() + triangle * bits;
+  std::uint64_t two;
+  std::memcpy(&two, words + (begin >> 5), sizeof two);
+  return words[1] + static_cast<std::uint32_t>(two >> (begin & 31) & ((std::uint64_t{1} << bits) - 1));
+}
 
 /// A packed leaf, or a part of one.
 HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {

@@ -182,10 +182,9 @@ class Encoder {
   void write_boxes(Node& node, const Box& box, std::span<const Tree::Node> children) {
     std::memset(static_cast<void*>(&node), 0, sizeof node);
     if (children.empty()) return;
-    const Grid grid = grid_over(box);
+    const Grid grid = grid_over(box, bits_of_step<Node>);
+    set_grid(grid, node);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      node.origin[axis] = grid.origin[axis];
-      node.exponent[axis] = static_cast<std::uint8_t>(grid.exponent[axis] + exponent_bias);
       for (std::size_t c = 0; c < children.size(); ++c) {
         node.planes[2 * axis][c] = round_down(grid, axis, children[c].bounds.lower[axis]);
         node.planes[2 * axis + 1][c] = round_up(grid, axis, children[c].bounds.upper[axis]);

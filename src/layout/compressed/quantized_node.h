@@ -10,7 +10,7 @@ namespace boxwood {
 /// References in a compressed tree: the place of a node's or a leaf's first 32-bit word times two, plus one for a leaf.
 /// Place 0 is never used. A leaf is packed (packed_leaf.h) or the names of its triangles.
 
-/// A plane of a child lies at origin + q * scale: exactly the float that fused multiply-add gives, so the encoder knows
+/// A plane of a child lies at origin + q * step: exactly the float that fused multiply-add gives, so the encoder knows
 /// it, too. Rows as in WideNode. Eight children, 80 bytes:
 ///    0  planes, 8 bytes a row
 ///   48  origin, then per axis the exponent of two plus 127
@@ -27,12 +27,11 @@ struct alignas(16) QuantizedNode8 {
 };
 static_assert(sizeof(QuantizedNode8) == 80);
 
-/// Sixteen children, 192 bytes, three cache lines.
+/// Sixteen children, 192 bytes, three cache lines. There is room for steps between powers of two, which make boxes
+/// tighter: of 16 significant bits, so that 255 of them are a float, too.
 struct alignas(64) QuantizedNode16 {
   std::uint8_t planes[6][16];
-  float origin[3];
-  std::uint8_t exponent[3];
-  std::uint8_t unused;
+  float origin[4], step[4];  // the fourth are 0
   WideReference children[16];
 };
 static_assert(sizeof(QuantizedNode16) == 192);

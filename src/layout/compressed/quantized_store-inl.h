@@ -20,7 +20,10 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float step_of(std::uint8_t exponent) { return std::bit_cast<float>(std::uint32_t{exponent} << 23); }
+HWY_INLINE float step_of(const QuantizedNode8& node, int axis) {
+  return std::bit_cast<float>(std::uint32_t{node.exponent[axis]} << 23);
+}
+HWY_INLINE float step_of(const QuantizedNode16& node, int axis) { return node.step[axis]; }
 
 HWY_INLINE const std::byte* place_of(const WideView& view, WideReference reference) {
   return view.base + std::size_t{reference >> 1} * sizeof(std::uint32_t);
@@ -132,7 +135,7 @@ struct QuantizedStore {
       for (int row = 0; row < 6; ++row) {
         const auto q = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(bytes, packed.planes[row] + begin)));
         // Exact product, one rounding: the same fused or not.
-        auto plane = hn::MulAdd(q, hn::Set(d, step_of(packed.exponent[row / 2])), hn::Set(d, packed.origin[row / 2]));
+        auto plane = hn::MulAdd(q, hn::Set(d, step_of(packed, row / 2)), hn::Set(d, packed.origin[row / 2]));
         if (row < 2) {  // no ray meets a box that is inverted on one axis
           const auto none = hn::Set(d, row == 0 ? infinity : -infinity);
           plane = hn::IfThenElse(hn::RebindMask(d, children.some), plane, none);
@@ -145,7 +148,7 @@ struct QuantizedStore {
 
   static HWY_INLINE float plane(const WideView& view, WideReference reference, int row, std::uint32_t lane) {
     const Node& packed = *reinterpret_cast<const Node*>(place_of(view, reference));
-    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), step_of(packed.exponent[row / 2]),
+    return __builtin_fmaf(static_cast<float>(packed.planes[row][lane]), step_of(packed, row / 2),
                           packed.origin[row / 2]);
   }
 

@@ -81,11 +81,9 @@ class QuantizedCheck {
       return child_of_eight(node, lane);
   }
   static Box box(const Node& node, int lane) {
-    Grid grid;
+    const Grid grid = grid_of(node);
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      grid.origin[axis] = node.origin[axis];
-      grid.exponent[axis] = static_cast<std::int8_t>(node.exponent[axis] - exponent_bias);
       out.lower[axis] = grid.at(axis, node.planes[2 * axis][lane]);
       out.upper[axis] = grid.at(axis, node.planes[2 * axis + 1][lane]);
     }

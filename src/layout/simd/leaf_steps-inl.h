@@ -57,13 +57,13 @@ struct LeafSteps {
 
 #if HWY_TARGET <= HWY_AVX3
 
-/// Two rays and a block of eight triangles for each.
-struct BlockPair {
+/// Two rays in a register, eight triangles for each: those of the first in the lower lanes.
+struct RayPair {
   using D = hn::FixedTag<float, 16>;
   using Half = hn::FixedTag<float, 8>;
 
-  const LeafBlock<8>& a;
-  const LeafBlock<8>& b;
+  const Slot& a;
+  const Slot& b;
 
   static HWY_INLINE hn::Vec<D> both(const float* low, const float* high) {
     return hn::Combine(D(), hn::Load(Half(), high), hn::Load(Half(), low));
@@ -71,32 +71,34 @@ struct BlockPair {
   static HWY_INLINE hn::Vec<D> both(float low, float high) {
     return hn::IfThenElse(hn::FirstN(D(), 8), hn::Set(D(), low), hn::Set(D(), high));
   }
-  HWY_INLINE Vertices<D> vertices(int vertex, const TriangleRay& ray_a, const TriangleRay& ray_b) const {
-    const auto coordinate = [&](int axis) {
-      return both(a.vertices[vertex][ray_a.axes[axis]], b.vertices[vertex][ray_b.axes[axis]]);
-    };
-    return {coordinate(0), coordinate(1), coordinate(2)};
-  }
   /// Within the range of t of each.
-  HWY_INLINE TriangleHits<D> hit(const Slot& slot_a, const Slot& slot_b) const {
-    const D d;
-    const TriangleRay& x = slot_a.leaf;
-    const TriangleRay& y = slot_b.leaf;
-    const Vertices<D> triangles[3] = {vertices(0, x, y), vertices(1, x, y), vertices(2, x, y)};
+  HWY_INLINE TriangleHits<D> hit(const Vertices<D> (&triangles)[3]) const {
+    const TriangleRay& x = a.leaf;
+    const TriangleRay& y = b.leaf;
     const ShearedRays<D> rays{both(x.origin[0], y.origin[0]), both(x.origin[1], y.origin[1]),
                               both(x.origin[2], y.origin[2]), both(x.shear_x, y.shear_x),
                               both(x.shear_y, y.shear_y),     both(x.scale_z, y.scale_z)};
-    TriangleHits<D> hits = hit_triangles(d, triangles, rays);
-    hits.hit = hn::And(hits.hit, hn::And(hn::Ge(hits.t, both(slot_a.t_near, slot_b.t_near)),
-                                         hn::Le(hits.t, both(slot_a.t_limit, slot_b.t_limit))));
+    TriangleHits<D> hits = hit_triangles(D(), triangles, rays);
+    hits.hit = hn::And(hits.hit,
+                       hn::And(hn::Ge(hits.t, both(a.t_near, b.t_near)), hn::Le(hits.t, both(a.t_limit, b.t_limit))));
     return hits;
+  }
+  HWY_INLINE TriangleHits<D> hit(const LeafBlock<8>& block_a, const LeafBlock<8>& block_b) const {
+    const auto vertices = [&](int vertex) HWY_ATTR {
+      const auto coordinate = [&](int axis) HWY_ATTR {
+        return both(block_a.vertices[vertex][a.leaf.axes[axis]], block_b.vertices[vertex][b.leaf.axes[axis]]);
+      };
+      return Vertices<D>{coordinate(0), coordinate(1), coordinate(2)};
+    };
+    const Vertices<D> triangles[3] = {vertices(0), vertices(1), vertices(2)};
+    return hit(triangles);
   }
 };
 
 /// What the tests of pairs found, kept until the whole pass is tested: hits come as they like, and a branch on each
 /// would be mispredicted as often.
 struct PassHits {
-  StoredHits<BlockPair::D> pairs[most_in_flight / 2];
+  StoredHits<RayPair::D> pairs[most_in_flight / 2];
   std::uint32_t found[most_in_flight + 1];  // ray in the list
   std::uint32_t lanes[most_in_flight + 1];  // one bit each, of its half of the pair
   std::uint32_t size = 0;
@@ -108,38 +110,47 @@ struct PassHits {
   }
 };
 
-/// The first blocks of the leaves of a list of rays.
+/// The first blocks of the leaves that a list of rays is at. A store whose leaves are packed has a form of its own,
+/// which tests triangles without unpacking leaves to memory.
 template <class Store>
-struct PassBlocks {
-  const LeafBlock<8>* blocks[most_in_flight + 1];
-  typename Store::BlockBuffer buffers[most_in_flight + 1];
-  std::uint32_t more = 0;
-
-  /// That of the i-th ray.
-  HWY_INLINE const LeafBlock<8>& get(const Slots& slots, const WideView& view, const SlotList& list, std::uint32_t i) {
-    blocks[i] = &Store::block(view, slots.at(list.offsets[i]).next, 0, buffers[i]);
-    more |= blocks[i]->primitives[0];
-    return *blocks[i];
+class PassBlocks {
+ public:
+  /// Before the first test.
+  HWY_INLINE void open(const Slots&, const WideView&, const SlotList&) {}
+  /// The i-th ray of the list, and the next one.
+  HWY_INLINE TriangleHits<RayPair::D> hit(const WideView& view, const RayPair& rays, std::uint32_t i) {
+    return rays.hit(get(view, rays.a, i), get(view, rays.b, i + 1));
   }
+  /// The name of a triangle of the i-th ray's block.
+  HWY_INLINE std::uint32_t primitive(std::uint32_t i, std::uint32_t lane) const {
+    return blocks_[i]->primitives[lane] & ~more_blocks;
+  }
+  /// Whether the leaf of any ray so far, or of the i-th, has more blocks.
+  HWY_INLINE bool any_goes_on() const { return (more_ & more_blocks) != 0; }
+  HWY_INLINE bool goes_on(std::uint32_t i) const { return (blocks_[i]->primitives[0] & more_blocks) != 0; }
+
+ private:
+  HWY_INLINE const LeafBlock<8>& get(const WideView& view, const Slot& slot, std::uint32_t i) {
+    blocks_[i] = &Store::block(view, slot.next, 0, none_);
+    more_ |= blocks_[i]->primitives[0];
+    return *blocks_[i];
+  }
+
+  const LeafBlock<8>* blocks_[most_in_flight + 1];
+  typename Store::BlockBuffer none_;
+  std::uint32_t more_ = 0;
 };
 
 template <class Store>
 struct LeafSteps<Store, 8> {
-  static HWY_INLINE void test(const BlockPair& pair, const Slot& a, const Slot& b, std::uint32_t ray, PassHits& out) {
-    const TriangleHits<BlockPair::D> hits = pair.hit(a, b);
-    out.pairs[ray / 2].store(hits);
-    const std::uint32_t bits = bits_of(BlockPair::D(), hits.hit);
-    out.note(ray, bits & 0xff);
-    out.note(ray + 1, bits >> 8);
-  }
-
-  /// The best of what was found for one ray.
-  static HWY_INLINE void keep_best(const LeafBlock<8>& block, const StoredHits<BlockPair::D>& pair, std::uint32_t half,
+  /// The best of what was found for one ray, the i-th.
+  static HWY_INLINE void keep_best(const PassBlocks<Store>& leaves, const PassHits& hits, std::uint32_t i,
                                    std::uint32_t lanes, Slot& slot) {
+    const StoredHits<RayPair::D>& pair = hits.pairs[i / 2];
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      const std::uint32_t at = half + lane;
-      const std::uint32_t primitive = block.primitives[lane] & ~more_blocks;
+      const std::uint32_t at = (i & 1) * 8 + lane;
+      const std::uint32_t primitive = leaves.primitive(i, lane);
       if (!wins(pair.t[at], 0, primitive, slot.best)) continue;
       slot.best = pair.hit(static_cast<int>(at), primitive, 0);
       slot.t_limit = pair.t[at] + 0.0f;
@@ -150,34 +161,37 @@ struct LeafSteps<Store, 8> {
     list.repeat_last();
     PassBlocks<Store> leaves;
     PassHits hits;
+    leaves.open(slots, view, list);
     for (std::uint32_t i = 0; i < list.size; i += 2) {
-      const BlockPair pair{leaves.get(slots, view, list, i), leaves.get(slots, view, list, i + 1)};
-      test(pair, slots.at(list.offsets[i]), slots.at(list.offsets[i + 1]), i, hits);
+      const RayPair rays{slots.at(list.offsets[i]), slots.at(list.offsets[i + 1])};
+      const TriangleHits<RayPair::D> found = leaves.hit(view, rays, i);
+      hits.pairs[i / 2].store(found);
+      const std::uint32_t bits = bits_of(RayPair::D(), found.hit);
+      hits.note(i, bits & 0xff);
+      hits.note(i + 1, bits >> 8);
     }
     for (std::uint32_t i = 0; i < hits.size; ++i) {
       const std::uint32_t ray = hits.found[i];
-      keep_best(*leaves.blocks[ray], hits.pairs[ray / 2], (ray & 1) * 8, hits.lanes[i], slots.at(list.offsets[ray]));
+      keep_best(leaves, hits, ray, hits.lanes[i], slots.at(list.offsets[ray]));
     }
-    if (HWY_LIKELY((leaves.more & more_blocks) == 0)) return;
+    if (HWY_LIKELY(!leaves.any_goes_on())) return;
     for (std::uint32_t i = 0; i < list.size; ++i) {
-      if ((leaves.blocks[i]->primitives[0] & more_blocks) == 0) continue;
-      closest_in_blocks<Store>(view, 1, slots.at(list.offsets[i]));
+      if (leaves.goes_on(i)) closest_in_blocks<Store>(view, 1, slots.at(list.offsets[i]));
     }
   }
   template <class Decide>
   static HWY_INLINE void any_pass(const Slots& slots, const WideView& view, SlotList& list, Decide decide) {
     list.repeat_last();
     PassBlocks<Store> leaves;
-    const auto more_found = [&](std::uint32_t i, const Slot& slot) HWY_ATTR {
-      return (leaves.blocks[i]->primitives[0] & more_blocks) != 0 && any_in_blocks<Store>(view, 1, slot);
-    };
+    leaves.open(slots, view, list);
+    const auto more_found = [&](std::uint32_t i, const Slot& slot)
+                                HWY_ATTR { return leaves.goes_on(i) && any_in_blocks<Store>(view, 1, slot); };
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       Slot& a = slots.at(list.offsets[i]);
       Slot& b = slots.at(list.offsets[i + 1]);
-      const BlockPair pair{leaves.get(slots, view, list, i), leaves.get(slots, view, list, i + 1)};
-      const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
+      const std::uint32_t bits = bits_of(RayPair::D(), leaves.hit(view, {a, b}, i).hit);
       bool found_a = (bits & 0xff) != 0, found_b = (bits & 0xff00) != 0;
-      if (HWY_UNLIKELY((leaves.more & more_blocks) != 0)) {
+      if (HWY_UNLIKELY(leaves.any_goes_on())) {
         found_a = found_a || more_found(i, a);
         found_b = found_b || more_found(i + 1, b);
       }

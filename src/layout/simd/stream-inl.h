@@ -241,11 +241,11 @@ class AnyStream {
       queue.blocks[size] = queue.blocks[size - 1];
       for (std::uint32_t i = 0; i < size; i += 2) {
         Slot &a = memory_.slot(queue.rays[i]), &b = memory_.slot(queue.rays[i + 1]);
-        const BlockPair pair{*queue.blocks[i], *queue.blocks[i + 1]};
-        const std::uint32_t bits = bits_of(BlockPair::D(), pair.hit(a, b).hit);
+        const auto &block_a = *queue.blocks[i], &block_b = *queue.blocks[i + 1];
+        const std::uint32_t bits = bits_of(RayPair::D(), RayPair{a, b}.hit(block_a, block_b).hit);
         note(a, (bits & 0xff) != 0, blocked_);
         note(b, (bits & 0xff00) != 0, blocked_);
-        names |= pair.a.primitives[0] | pair.b.primitives[0];
+        names |= block_a.primitives[0] | block_b.primitives[0];
       }
       return names;
     }
