@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "layout/compressed/packed_leaf.h"
+#include "layout/compressed/quantized_node.h"
 #include "layout/saved_level.h"
+#include "layout/simd/wide_node.h"
 #include "math/random.h"
 #include "saved/files.h"
 #include "saved/section_file.h"
@@ -155,8 +157,9 @@ TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
     std::size_t children;     // where the first child of the root stands
     std::uint32_t reference;  // the root's own
   };
-  // Offsets as wide_node.h and quantized_node.h give them.
-  const Root roots[] = {{"binned > wide(16)", 64 + 384, 4}, {"binned > collapse(16) > compressed(16)", 192 + 112, 96}};
+  const Root roots[] = {
+      {"binned > wide(16)", 64 + offsetof(WideNode<16>, children), 4},
+      {"binned > collapse(16) > compressed(16)", sizeof(QuantizedNode16) + offsetof(QuantizedNode16, children), 96}};
   const Folder folder;
   for (const Root& root : roots) {
     save(build(soup(60, 0.5f, 5), root.recipe), folder.file("good"));
@@ -183,8 +186,8 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   const Folder folder;
   save(build(sphere(12), "median(leaf=8) > collapse(16) > compressed(16)"), folder.file("good"));
   const std::string nodes = section_bytes(folder.file("good"), 3);
-  std::uint32_t first = 96;  // the root; children stand at byte 112 of a node
-  while (first % 2 == 0) first = word_at(nodes, first / 2 * 4 + 112);
+  std::uint32_t first = 96;  // the root
+  while (first % 2 == 0) first = word_at(nodes, first / 2 * 4 + offsetof(QuantizedNode16, children));
   const std::size_t leaf = first / 2 * 4;
   const std::uint32_t head = word_at(nodes, leaf);
   ASSERT_NE(head & packed_leaf, 0u);
