@@ -146,7 +146,7 @@ std::vector<CompressedCase> compressed_cases() {
   const auto targets = testable_targets();
   for (const char* scene : test_scene_names) {
     for (const std::uint32_t width : {8u, 16u}) {
-      for (const std::uint32_t leaf : {1u, 8u, 11u}) out.push_back({scene, width, leaf, targets.back()});
+      for (const std::uint32_t leaf : {1u, 8u, 11u, 16u}) out.push_back({scene, width, leaf, targets.back()});
     }
   }
   for (const std::int64_t target : targets) {
