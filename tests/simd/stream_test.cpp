@@ -93,7 +93,7 @@ TEST(Streams, WhereFewRaysShareNodes_AnswerLikeBruteForce) {
   expect_like_brute_force(scattered_triangles(3000, 0.15f), 1, "many small triangles");
 }
 
-TEST(Streams, GoRayByRayWhereATreeIsDeeperThanTheirRoom) {
+TEST(Streams, GoRayByRayWhereTheirListsHaveNoRoom) {
   const Scene scene = scattered_triangles(100, 0.2f);
   Contents contents;
   contents.mesh = &scene.meshes.front();

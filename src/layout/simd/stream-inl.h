@@ -32,16 +32,15 @@ inline constexpr std::size_t stream_block = 2048;
 /// At nodes that no more of a stream's rays enter they go on by themselves: to open one costs as much as the steps of
 /// some rays.
 inline constexpr std::uint32_t few_rays = 4;
-/// Levels of nodes that a stream has room for, and entries of their lists. Nodes below go ray by ray.
-inline constexpr std::uint32_t stream_depth = 48;
-inline constexpr std::uint32_t stream_entries = 8192;
+/// Entries of the lists of a stream's nodes. Nodes whose lists have no room go ray by ray.
+inline constexpr std::uint32_t stream_entries = 16384;
+/// Entries that a list takes: whole vectors are written behind its end.
+constexpr std::uint32_t room_for(std::uint32_t size) { return (size + 31) & ~15u; }
 
-/// A node on the way from the root to where a stream is.
-struct StreamLevel {
-  std::uint32_t begin, size;  // its part of the lists: the rays that enter it
-  std::uint32_t left;         // children that some ray meets and the stream has not been to yet, a bit each
-  std::uint32_t leaves;       // children that are leaves
-  alignas(64) WideReference children[16];
+/// A node that a stream has not been to yet, and its part of the lists: the rays that enter it.
+struct StreamNode {
+  WideReference reference;
+  std::uint32_t begin, size;
 };
 
 /// Rays with leaves that they enter, waiting for their tests: those of several leaves go into one loop, since few rays
@@ -94,8 +93,10 @@ template <class Store>
 struct StreamMemory {
   Slot slots[most_in_stream];
   alignas(64) std::uint32_t rays[stream_entries];  // offsets of slots
-  alignas(64) std::uint16_t met[stream_entries];   // which children of the level's node each of them meets, a bit each
-  StreamLevel levels[stream_depth];
+  // Of the node that is open: which children each of its rays meets, a bit each, and where these are.
+  alignas(64) std::uint16_t met[room_for(most_in_stream)];
+  alignas(64) WideReference children[Store::children];
+  StreamNode nodes[stream_entries / room_for(few_rays + 1) + 1];  // the last first
   LeafQueue<Store> queue;
   RaysAtNodes<Store> single;
   typename RaysAtNodes<Store>::Leaves single_leaves;
@@ -161,36 +162,14 @@ class AnyStream {
     return size;
   }
 
-  /// Leaves of a node first: what they block need not go into its other children.
   HWY_INLINE void walk(std::uint32_t size) {
     for (std::uint32_t i = 0; i < size; ++i) memory_.rays[i] = i * static_cast<std::uint32_t>(sizeof(Slot));
-    StreamLevel* level = memory_.levels;
-    open(*level, view_.root, 0, size);
-    while (true) {
-      if (level->left == 0) {
-        if (level == memory_.levels) break;
-        --level;
-        continue;
-      }
-      const std::uint32_t leaves = level->left & level->leaves;
-      if (leaves != 0) {
-        queue_leaves(*level, leaves);
-        level->left &= ~leaves;
-        continue;
-      }
-      const auto lane = static_cast<std::uint32_t>(std::bit_width(level->left)) - 1;
-      level->left &= ~(1u << lane);
-      const std::uint32_t begin = level->begin + room_for(level->size);
-      const std::uint32_t count = list_rays(*level, lane, memory_.rays + begin);
-      const WideReference child = level->children[lane];
-      if (count <= few_rays) {
-        memory_.single.add(memory_.rays + begin, child, count);
-        while (memory_.single.enough()) step_single();
-      } else if (level + 1 == memory_.levels + stream_depth || begin + 2 * room_for(count) > stream_entries) {
-        one_by_one(child, memory_.rays + begin, count);
-      } else {
-        open(*++level, child, begin, count);
-      }
+    memory_.nodes[0] = {view_.root, 0, size};
+    std::uint32_t left = 1;
+    while (left != 0) {
+      left = open(left - 1);
+      // Leaves of a node first: what they block need not go into its other children.
+      if (memory_.queue.size >= memory_.queue.enough) test_leaves();
     }
     while (!memory_.single.empty()) step_single();
     test_leaves();
@@ -209,17 +188,6 @@ class AnyStream {
       done = end;
       if (queue.size >= queue.enough) test_leaves();
     }
-  }
-
-  /// Has the rays of a level wait for those of its leaves that they enter.
-  HWY_INLINE void queue_leaves(const StreamLevel& level, std::uint32_t leaves) {
-    LeafQueue<Store>& queue = memory_.queue;
-    for (; leaves != 0; leaves &= leaves - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(leaves));
-      queue.add(view_, level.children[lane], list_rays(level, lane, queue.rays + queue.size));
-      if (queue.size >= queue.most) test_leaves();
-    }
-    if (queue.size >= queue.enough) test_leaves();
   }
 
   HWY_NOINLINE void test_leaves() {
@@ -269,45 +237,76 @@ class AnyStream {
     }
   }
 
-  /// Entries that a list takes: whole vectors are written behind its end.
-  static constexpr std::uint32_t room_for(std::uint32_t size) { return (size + 31) & ~15u; }
-
-  /// Writes those of a level's rays that meet the child in `lane` to `out`, and returns how many.
-  HWY_INLINE std::uint32_t list_rays(const StreamLevel& level, std::uint32_t lane, std::uint32_t* out) const {
+  /// Writes those rays of the open node that meet the child in `lane` to `out`, and returns how many.
+  HWY_INLINE std::uint32_t list_rays(const StreamNode& at, std::uint32_t lane, std::uint32_t* out) const {
     const WidestWords d;
     const hn::Rebind<std::uint16_t, WidestWords> halves;
     const auto bit = hn::Set(d, 1u << lane);
+    const std::uint32_t* const rays = memory_.rays + at.begin;
     std::uint32_t count = 0;
-    for (std::uint32_t i = level.begin; i < level.begin + level.size; i += lanes_of<WidestWords>) {
+    for (std::uint32_t i = 0; i < at.size; i += lanes_of<WidestWords>) {
       const auto met = hn::PromoteTo(d, hn::Load(halves, memory_.met + i));
-      count += compress_store<WidestWords>(hn::Load(d, memory_.rays + i), hn::TestBit(met, bit), out + count);
+      count += compress_store<WidestWords>(hn::Load(d, rays + i), hn::TestBit(met, bit), out + count);
     }
     return count;
   }
 
-  /// Tests which children the rays of a list meet.
-  HWY_INLINE void open(StreamLevel& level, WideReference reference, std::uint32_t begin, std::uint32_t size) {
+  /// Tests which children the rays of a node meet, the `top`-th of those left, and lists them. Returns how many nodes
+  /// are left.
+  HWY_INLINE std::uint32_t open(std::uint32_t top) {
     const Words dw;
+    const StreamNode at = memory_.nodes[top];
     typename Store::NodeBuffer buffer;
-    const WideNode<N>& node = Store::node(view_, reference, buffer);
-    level.begin = begin;
-    level.size = size;
-    level.left = level.leaves = 0;
+    const WideNode<N>& node = Store::node(view_, at.reference, buffer);
     // Of one register of children all bits are written, of two parts of them the second adds to the first.
-    std::fill_n(memory_.met + begin + (one_register ? size : 0), one_register ? 16 : size + 16, std::uint16_t{0});
+    std::fill_n(memory_.met + (one_register ? at.size : 0), one_register ? 16 : at.size + 16, std::uint16_t{0});
+    std::uint32_t met = 0, leaves = 0;
     for (int first = 0; first < N; first += lanes_of<D>) {
-      level.left |= meet(node, first, memory_.rays + begin, memory_.met + begin, size);
+      met |= meet(node, first, memory_.rays + at.begin, memory_.met, at.size);
       const auto children = hn::Load(dw, node.children + first);
-      level.leaves |= bits_of(D(), hn::RebindMask(D(), hn::TestBit(children, hn::Set(dw, 1)))) << first;
-      hn::Store(children, dw, level.children + first);
+      leaves |= bits_of(D(), hn::RebindMask(D(), hn::TestBit(children, hn::Set(dw, 1)))) << first;
+      hn::Store(children, dw, memory_.children + first);
     }
-    if (view_.out_of_cache) {
-      for (std::uint32_t left = level.left; left != 0; left &= left - 1) {
-        Store::prefetch(view_, level.children[std::countr_zero(left)]);
-      }
-    }
-    visits_ += size;
+    visits_ += at.size;
     ++nodes_;
+    // Here, since those of the node before have had time to be fetched, and what was just stored to be read as vectors.
+    while (memory_.single.enough()) step_single();
+    list_leaves(at, met & leaves);
+    return list_nodes(at, met & ~leaves, top);
+  }
+
+  /// Has rays of a node wait for the leaves that they enter.
+  HWY_INLINE void list_leaves(const StreamNode& at, std::uint32_t lanes) {
+    LeafQueue<Store>& queue = memory_.queue;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      const WideReference leaf = memory_.children[lane];
+      if (view_.out_of_cache) Store::prefetch(view_, leaf);
+      queue.add(view_, leaf, list_rays(at, lane, queue.rays + queue.size));
+      if (HWY_UNLIKELY(queue.size >= queue.most)) test_leaves();
+    }
+  }
+
+  /// Lists the rays of all nodes below one at once, without a branch on how many there are. Returns how many nodes are
+  /// left.
+  HWY_INLINE std::uint32_t list_nodes(const StreamNode& at, std::uint32_t lanes, std::uint32_t top) {
+    std::uint32_t end = at.begin + room_for(at.size);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      const WideReference child = memory_.children[lane];
+      if (view_.out_of_cache) Store::prefetch(view_, child);
+      if (HWY_UNLIKELY(end + 2 * room_for(at.size) > stream_entries)) {
+        one_by_one(at, lane);
+        continue;
+      }
+      const std::uint32_t count = list_rays(at, lane, memory_.rays + end);
+      const bool few = count <= few_rays;
+      memory_.single.add(memory_.rays + end, child, few ? count : 0);
+      memory_.nodes[top] = {child, end, count};
+      top += few ? 0 : 1;
+      end += few ? 0 : room_for(count);
+    }
+    return top;
   }
 
   /// Notes for each ray which of the children from `first` on it meets; returns which any of them does.
@@ -334,11 +333,13 @@ class AnyStream {
     return any;
   }
 
-  HWY_NOINLINE void one_by_one(WideReference node, const std::uint32_t* list, std::uint32_t size) const {
+  /// The rays of a node that meet one child.
+  HWY_NOINLINE void one_by_one(const StreamNode& at, std::uint32_t lane) const {
     WideView below = view_;
-    below.root = node;
-    for (std::uint32_t i = 0; i < size; ++i) {
-      Slot& slot = memory_.slot(list[i]);
+    below.root = memory_.children[lane];
+    for (std::uint32_t i = 0; i < at.size; ++i) {
+      if ((memory_.met[i] >> lane & 1) == 0) continue;
+      Slot& slot = memory_.slot(memory_.rays[at.begin + i]);
       note(slot, any_hit<Store>(below, prepare(rays_[slot.index], view_.reach), CountNothing{}), blocked_);
     }
   }
