@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -177,6 +178,8 @@ Mesh separate_triangles(std::span<const Vec3> corners) {
   return mesh;
 }
 
+std::array<std::uint32_t, 3> bits_of(const Vec3& p) { return std::bit_cast<std::array<std::uint32_t, 3>>(p); }
+
 /// Every part of a packed leaf as the kernels of one instruction set unpack it, and as bits are taken one by one.
 void expect_unpacks(const Mesh& mesh, std::span<const std::uint32_t> names) {
   std::size_t done = 0;
@@ -198,7 +201,7 @@ void expect_unpacks(const Mesh& mesh, std::span<const std::uint32_t> names) {
         const Vec3 got{block.vertices[vertex][0][lane], block.vertices[vertex][1][lane],
                        block.vertices[vertex][2][lane]};
         const Vec3& expected = mesh.positions[mesh.triangles[name][used ? vertex : 0]];
-        ASSERT_EQ(std::memcmp(&got, &expected, sizeof got), 0) << "lane " << lane << " vertex " << vertex;
+        ASSERT_EQ(bits_of(got), bits_of(expected)) << "lane " << lane << " vertex " << vertex;
       }
     }
     done += part.triangles();
