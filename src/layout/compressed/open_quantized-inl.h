@@ -23,7 +23,7 @@ class OpenNode<QuantizedStore<Node, N>> {
 
   /// A plane's distance is (origin + q * step) / direction - offset, taken as q * (step / direction) plus what all
   /// children share. The first product is rounded, the sum once more, and the plane once less: that is at most four
-  /// parts in 2^24 of the largest coordinate, for which PreparedRay's widening by 32 has room.
+  /// parts in 2^24 of the largest coordinate, and with the 28 of PreparedRay's own tests all that it widens boxes by.
   template <class D>
   HWY_INLINE BoxHits<D> hit(D d, int begin, const Slot& slot) const {
     const Axes axes(node_, slot);

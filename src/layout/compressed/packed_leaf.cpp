@@ -79,8 +79,9 @@ void OwnCorners::measure() {
 }
 
 std::uint32_t OwnCorners::head() const {
-  return packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3 | width_[0] << 7 | width_[1] << 13 | width_[2] << 19 |
-         width_[3] << 25;
+  std::uint32_t out = packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3;
+  for (std::size_t i = 0; i < 4; ++i) out |= width_[i] << PackedLeafHead::places[i];
+  return out;
 }
 
 void OwnCorners::pack(std::uint32_t* out, bool more) const {

@@ -27,8 +27,9 @@ struct PackedLeafHead {
   explicit constexpr PackedLeafHead(std::uint32_t word)
       : triangles((word & 7) + 1),
         corners((word >> 3 & 15) + 1),
-        bits{word >> 7 & 63, word >> 13 & 63, word >> 19 & 63, word >> 25 & 31} {}
+        bits{word >> places[0] & 63, word >> places[1] & 63, word >> places[2] & 63, word >> places[3] & 31} {}
 
+  alignas(16) static constexpr std::uint32_t places[4] = {7, 13, 19, 25};  // of `bits`
   static constexpr std::uint32_t begin_of_indices = 64, begin_of_bases = 160, begin_of_corners = 208;
   constexpr std::uint32_t begin_of_numbers() const {
     return begin_of_corners + corners * (bits[0] + bits[1] + bits[2]);

@@ -25,8 +25,8 @@ class PackedCorners {
   HWY_INLINE explicit PackedCorners(const std::uint32_t* words) : words_(words) {
     const hn::FixedTag<std::uint32_t, 4> d;
     const hn::FixedTag<std::uint16_t, 4> halves;
-    alignas(16) static constexpr std::uint32_t places[4] = {7, 13, 19, 31};
-    const auto bits = hn::And(hn::Shr(hn::Set(d, words[0]), hn::Load(d, places)), hn::Set(d, 63));
+    // The fourth lanes, of numbers, are not used.
+    const auto bits = hn::And(hn::Shr(hn::Set(d, words[0]), hn::Load(d, PackedLeafHead::places)), hn::Set(d, 63));
     const auto two = hn::Add(bits, hn::ShiftLeftLanes<1>(d, bits));
     const auto before = hn::ShiftLeftLanes<1>(d, hn::Add(two, hn::ShiftLeftLanes<2>(d, two)));
     const auto begin = hn::Add(hn::Mul(before, hn::Set(d, PackedLeafHead(words[0]).corners)),

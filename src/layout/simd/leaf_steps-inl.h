@@ -7,6 +7,8 @@
 #define BOXWOOD_LAYOUT_SIMD_LEAF_STEPS_INL_H
 #endif
 
+#include <type_traits>
+
 #include "layout/simd/single-inl.h"
 #include "layout/simd/slots-inl.h"
 
@@ -137,6 +139,7 @@ class PassBlocks {
   }
 
   const LeafBlock<8>* blocks_[most_in_flight + 1];
+  static_assert(std::is_empty_v<typename Store::BlockBuffer>, "blocks lie in memory as they are");
   typename Store::BlockBuffer none_;
   std::uint32_t more_ = 0;
 };
