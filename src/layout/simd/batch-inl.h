@@ -9,6 +9,7 @@
 #define BOXWOOD_LAYOUT_SIMD_BATCH_INL_H
 #endif
 
+#include <algorithm>
 #include <span>
 
 #include "layout/simd/leaf_steps-inl.h"
@@ -95,17 +96,21 @@ class ClosestBatch {
 
  private:
   /// Puts the next rays that the lists can serve into free slots.
-  HWY_INLINE void load() {
-    const auto skip = [&](Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
-      __builtin_prefetch(&hits_[index], 1);
-      entries_of(ray)[stack_bottom] = {wide_finished, -1};
-      // Keys order by their bits, which negative distances do not do.
-      if (HWY_LIKELY(valid && ray.t_near >= 0)) return false;
-      hits_[index] = closest_hit<Store>(view_, prepare(rays_[index], view_.reach), CountNothing{});
-      return true;
-    };
-    incoming_.fill(slots_, lists_.free, lists_.nodes, skip);
-  }
+  HWY_INLINE void load() { incoming_.fill(slots_, lists_.free, lists_.nodes, Arrivals{*this}); }
+
+  /// What happens to rays that come.
+  struct Arrivals {
+    static constexpr StackEntry bottom{wide_finished, -1};
+    ClosestBatch& batch;
+
+    /// Keys order by their bits, which negative distances do not do.
+    static HWY_INLINE std::uint32_t admitted(const LoadedRays& loaded) { return loaded.valid & loaded.forward; }
+    HWY_INLINE void expect(std::uint32_t index) const { __builtin_prefetch(&batch.hits_[index], 1); }
+    HWY_INLINE void refuse(std::uint32_t index) const {
+      const PreparedRay ray = prepare(batch.rays_[index], batch.view_.reach);
+      batch.hits_[index] = closest_hit<Store>(batch.view_, ray, CountNothing{});
+    }
+  };
 
   /// All rays of the longest list take a step.
   HWY_NOINLINE void pass(Lists::Pass longest) {
@@ -174,26 +179,24 @@ class ClosestBatch {
     constexpr auto lanes = static_cast<std::uint32_t>(lanes_of<decltype(d)>);
     // Keys are the upper halves.
     const auto limit = hn::Set(d, (std::int64_t{Steps::key_limit(slot.t_limit)} << 32) | 0xffffffff);
-    const StackEntry* const entries = entries_of(slot);
-    std::uint32_t top = slot.top;
+    auto* top = top_of<StackEntry>(slot);
     std::uint32_t keep = 0;
     while (true) {
-      const auto looked_at = hn::LoadU(d, reinterpret_cast<const std::int64_t*>(entries + top - lanes));
+      const auto looked_at = hn::LoadU(d, reinterpret_cast<const std::int64_t*>(top - lanes));
       keep = ~bits_of(d, hn::Gt(looked_at, limit)) & ((1u << lanes) - 1);
       if (HWY_LIKELY(keep != 0)) break;
       top -= lanes;
     }
-    top = top - lanes + static_cast<std::uint32_t>(std::bit_width(keep)) - 1;
+    top = top - lanes + std::bit_width(keep) - 1;
     slot.top = top;
-    slot.next = entries[top].reference;
-    return slot.next;
+    return slot.next = top->reference;
   }
 
   const WideView& view_;
   std::span<const Ray> rays_;
   std::span<Hit> hits_;
   Slots slots_;
-  IncomingRays<Store::row_bytes> incoming_;
+  IncomingRays<Store::row_bytes, StackEntry> incoming_;
   Lists lists_;
 };
 
@@ -207,6 +210,7 @@ class AnyBatch {
       : view_(view), blocked_(blocked), slots_(memory, view.stack), incoming_(rays, view) {}
 
   void run() {
+    std::ranges::fill(blocked_, std::uint8_t{0});
     lists_.free.add_all(slots_);
     load();
     while (true) {
@@ -224,14 +228,15 @@ class AnyBatch {
   }
 
  private:
-  HWY_INLINE void load() {
-    const auto skip = [&](Slot& ray, bool valid, std::uint32_t index) HWY_ATTR {
-      references_of(ray)[stack_bottom] = wide_finished;
-      blocked_[index] = 0;
-      return !valid;
-    };
-    incoming_.fill(slots_, lists_.free, lists_.nodes, skip);
-  }
+  HWY_INLINE void load() { incoming_.fill(slots_, lists_.free, lists_.nodes, Arrivals()); }
+
+  struct Arrivals {
+    static constexpr WideReference bottom = wide_finished;
+
+    static HWY_INLINE std::uint32_t admitted(const LoadedRays& loaded) { return loaded.valid; }
+    HWY_INLINE void expect(std::uint32_t) const {}
+    HWY_INLINE void refuse(std::uint32_t) const {}
+  };
 
   HWY_INLINE void pass_nodes() {
     WideReference* const next = lists_.next();
@@ -251,9 +256,7 @@ class AnyBatch {
       static_assert(wide_finished == 1);
       const auto done = static_cast<std::uint32_t>(found);
       blocked_[slot.index] = static_cast<std::uint8_t>(done);
-      slot.top += done - 1;
-      slot.next = references_of(slot)[slot.top];
-      next[i] = (slot.next & (done - 1)) | done;
+      next[i] = (take_last(top_of<WideReference>(slot) + done, slot) & (done - 1)) | done;
       ahead.template stepped<1>(i);
     });
     ahead.finish(lists_.leaves.size);
@@ -262,7 +265,7 @@ class AnyBatch {
   const WideView& view_;
   std::span<std::uint8_t> blocked_;
   Slots slots_;
-  IncomingRays<Store::row_bytes> incoming_;
+  IncomingRays<Store::row_bytes, WideReference> incoming_;
   Lists lists_;
 };
 

@@ -58,11 +58,15 @@ struct EightAxes {
   HWY_INLINE OfEight dominant(const OfEight (&v)[3]) const { return pick(v[0], v[1], v[2]); }
 };
 
+/// Which of eight rays are within the limits of `Ray` and which begin at 0 or later, a bit each.
+struct LoadedRays {
+  std::uint32_t valid, forward;
+};
+
 /// Fills slots with eight rays, all but their place in a tree and what they have found. ray(i) and slot(i): the i-th.
-/// RowBytes: of the rows of a node. Returns which are within the limits of `Ray`, a bit each; the slots of others hold
-/// nothing of use.
+/// RowBytes: of the rows of a node. The slots of rays that are not valid hold nothing of use.
 template <std::uint32_t RowBytes, class RayAt, class SlotAt>
-HWY_INLINE std::uint32_t load_eight(float reach, RayAt ray, SlotAt slot) {
+HWY_INLINE LoadedRays load_eight(float reach, RayAt ray, SlotAt slot) {
   const EightFloats d;
   const hn::RebindToSigned<EightFloats> di;
   const auto integers = [&](std::int32_t value) HWY_ATTR { return hn::BitCast(d, hn::Set(di, value)); };
@@ -93,14 +97,18 @@ HWY_INLINE std::uint32_t load_eight(float reach, RayAt ray, SlotAt slot) {
     far_offset[axis] = hn::Sub(center, slack);
     const auto negative = hn::RebindMask(d, hn::Lt(hn::BitCast(di, direction[axis]), hn::Zero(di)));
     const auto row = static_cast<std::int32_t>(2 * static_cast<std::uint32_t>(axis) * RowBytes);
-    near_row[axis] = hn::IfThenElse(negative, integers(row + static_cast<std::int32_t>(RowBytes)), integers(row));
+    // Sixteen bits each: x and y are in one word.
+    constexpr auto other = static_cast<std::int32_t>(RowBytes);
+    const int shift = axis == 1 ? 16 : 0;
+    near_row[axis] = hn::IfThenElse(negative, integers((row + other) << shift), integers(row << shift));
   }
 
   // In the order of Slot. Limits are never -0: they are compared as integers.
   OfEight out[3][8] = {
       {inverse[0], inverse[1], inverse[2], near_offset[0], near_offset[1], near_offset[2], far_offset[0],
        far_offset[1]},
-      {far_offset[2], hn::Add(in[3], zero), hn::Add(in[7], zero), near_row[0], near_row[1], near_row[2], zero, zero},
+      {far_offset[2], hn::Add(in[3], zero), hn::Add(in[7], zero), hn::Or(near_row[0], near_row[1]), near_row[2], zero,
+       zero, zero},
       {axes.first(origin), axes.second(origin), axes.dominant(origin), hn::Div(axes.first(direction), dominant),
        hn::Div(axes.second(direction), dominant), hn::Div(one, dominant),
        axes.pick(integers(1), integers(2), integers(0)), axes.pick(integers(2), integers(0), integers(1))}};
@@ -111,7 +119,7 @@ HWY_INLINE std::uint32_t load_eight(float reach, RayAt ray, SlotAt slot) {
     for (int i = 0; i < 8; ++i) hn::Store(out[part][i], d, reinterpret_cast<float*>(&slot(i)) + 8 * part);
   }
   for (int i = 0; i < 8; ++i) slot(i).leaf.axes[2] = std::bit_cast<std::uint32_t>(last_axes[i]);
-  return bits_of(d, valid);
+  return {bits_of(d, valid), bits_of(d, hn::Ge(in[3], zero))};
 }
 
 /// Fetches some rays of a batch from `begin` on, as far as there are any.
@@ -122,42 +130,56 @@ HWY_INLINE void prefetch_rays(std::span<const Ray> rays, std::size_t begin, std:
 /// How far ahead of those that are being prepared.
 inline constexpr std::size_t rays_ahead = 32;
 
-/// Puts the rays of a batch into slots, in order.
-template <std::uint32_t RowBytes>
+/// Puts the rays of a batch into slots, in order. Entry: of the stacks.
+template <std::uint32_t RowBytes, class Entry>
 class IncomingRays {
  public:
   IncomingRays(std::span<const Ray> rays, const WideView& view) : rays_(rays), view_(view) {}
 
-  /// Takes free slots, eight or all that are left at a time, for the next rays in front of the root of the tree. Rays
-  /// that `skip(slot, whether it is valid, index)` is true of are passed over; it puts an end to the stack of others.
-  template <class Skip>
-  HWY_INLINE void fill(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
+  /// Takes free slots, eight or all that are left at a time, for the next rays in front of the root of the tree.
+  /// Arrivals: bottom, the end of a stack; admitted(which are what), whose bits say which rays go to `nodes`;
+  /// expect(index of a ray), when it comes; refuse(index), when it isn't admitted.
+  template <class Arrivals>
+  HWY_INLINE void fill(const Slots& slots, SlotList& free, SlotList& nodes, const Arrivals& arrivals) {
     while (next_ < rays_.size() && free.size >= std::min<std::size_t>(8, rays_.size() - next_)) {
-      put_eight(slots, free, nodes, skip);
+      put_eight(slots, free, nodes, arrivals);
     }
   }
 
  private:
-  template <class Skip>
-  HWY_NOINLINE void put_eight(const Slots& slots, SlotList& free, SlotList& nodes, Skip skip) {
+  template <class Arrivals>
+  HWY_NOINLINE void put_eight(const Slots& slots, SlotList& free, SlotList& nodes, const Arrivals& arrivals) {
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(8, rays_.size() - next_));
-    const std::uint32_t begin = free.size - count;
-    prefetch_rays(rays_, next_ + rays_ahead, 8);
+    const auto first = static_cast<std::uint32_t>(next_);
+    free.size -= count;
+    next_ += count;
+    const std::uint32_t* const offsets = free.offsets + free.size;
+    prefetch_rays(rays_, first + rays_ahead, 8);
     // Missing rays are the last one again.
-    const std::uint32_t valid = load_eight<RowBytes>(
+    const LoadedRays loaded = load_eight<RowBytes>(
         view_.reach,
-        [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[next_ + std::min<std::size_t>(i, count - 1)]; },
-        [&](std::size_t i) HWY_ATTR -> Slot& { return i < count ? slots.at(free.offsets[begin + i]) : spare_; });
-    free.size = begin;
-    for (std::uint32_t i = 0; i < count; ++i, ++next_) {
-      const std::uint32_t offset = free.offsets[begin + i];
-      Slot& slot = slots.at(offset);
-      slot.next = view_.root;
-      slot.top = stack_bottom + 1;
-      slot.best = Hit{};
-      slot.index = static_cast<std::uint32_t>(next_);
-      (skip(slot, (valid >> i & 1) != 0, slot.index) ? free : nodes).add(offset);
+        [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[first + std::min<std::size_t>(i, count - 1)]; },
+        [&](std::size_t i) HWY_ATTR -> Slot& { return i < count ? slots.at(offsets[i]) : spare_; });
+    for (std::uint32_t i = 0; i < count; ++i) {
+      start(slots.at(offsets[i]), first + i, Arrivals::bottom);
+      arrivals.expect(first + i);
     }
+    const std::uint32_t all = (1u << count) - 1, admitted = Arrivals::admitted(loaded) & all;
+    if (HWY_LIKELY(admitted == all)) return nodes.add(offsets, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const bool admit = (admitted >> i & 1) != 0;
+      if (!admit) arrivals.refuse(first + i);
+      (admit ? nodes : free).add(offsets[i]);
+    }
+  }
+
+  HWY_INLINE void start(Slot& slot, std::uint32_t index, Entry bottom) const {
+    Entry* const end = bottom_of<Entry>(slot);
+    *end = bottom;
+    slot.top = end + 1;
+    slot.next = view_.root;
+    slot.best = Hit{};
+    slot.index = index;
   }
 
   std::span<const Ray> rays_;

@@ -109,6 +109,10 @@ struct Batch {
     }
   }
 
+  /// How far ahead the first rays of groups are fetched, which tell that most incoherent groups are: looks take no
+  /// time, memory does. All rays only after a coherent group; others are fetched when they go in flight.
+  static constexpr std::size_t looked_ahead = 16 * group_size;
+
   /// Cuts the batch into coherent groups and the runs between them. After a group that was not worth it, ever more are
   /// passed over, so that a batch that only looks coherent loses little.
   template <class OnGroup, class OnRun>
@@ -116,13 +120,16 @@ struct Batch {
     std::size_t done = 0, next = 0;
     std::size_t pass_over = 0, penalty = 1;
     RayGroup group;
+    for (std::size_t i = 0; i < std::min(looked_ahead, rays.size()); i += group_size) __builtin_prefetch(&rays[i]);
     for (; next + group_size <= rays.size(); next += group_size) {
       if (pass_over > 0) {
         --pass_over;
         continue;
       }
-      prefetch_rays(rays, next + group_size, group_size);
-      if (!prepare_group(rays.subspan(next, group_size), view.reach, next != 0 && done == next, group)) continue;
+      __builtin_prefetch(&rays[std::min(next + looked_ahead, rays.size() - 1)]);
+      const bool after_group = next != 0 && done == next;
+      if (after_group) prefetch_rays(rays, next + group_size, group_size);
+      if (!prepare_group(rays.subspan(next, group_size), view.reach, after_group, group)) continue;
       if (!on_group(group, next)) {
         pass_over = penalty;
         penalty = std::min<std::size_t>(2 * penalty, 64);

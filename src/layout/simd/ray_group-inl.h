@@ -67,10 +67,10 @@ HWY_INLINE std::uint32_t direction_class(const Ray& ray) {
          (std::signbit(d.z) ? 16u : 0);
 }
 
-/// A look at a few rays that rejects nearly every incoherent group.
+/// A look at a few rays that rejects nearly every incoherent group, most by the first two, which share a line.
 HWY_INLINE bool looks_coherent(std::span<const Ray> rays) {
   const std::uint32_t first = direction_class(rays[0]);
-  if (direction_class(rays[63]) != first) return false;
+  if (direction_class(rays[1]) != first || direction_class(rays[63]) != first) return false;
   bool same = true;
   for (const std::size_t i : {7, 31, 56, 20, 42, 13}) same &= direction_class(rays[i]) == first;
   return same;

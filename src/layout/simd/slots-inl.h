@@ -40,9 +40,10 @@ struct alignas(64) Slot {
   float inverse[3], near_offset[3], far_offset[3];
   float t_near;
   float t_limit;              // t_far or the best hit so far
-  std::uint32_t near_row[3];  // byte offsets of the near planes in a node
+  std::uint16_t near_row[3];  // byte offsets of the near planes in a node
+  std::uint16_t unused;
   WideReference next;
-  std::uint32_t top;  // entries on the stack
+  void* top;  // behind the topmost entry of the stack
 
   TriangleRay leaf;
   Hit best;
@@ -50,8 +51,21 @@ struct alignas(64) Slot {
 };
 static_assert(sizeof(Slot) == 128);
 
-HWY_INLINE StackEntry* entries_of(Slot& slot) { return reinterpret_cast<StackEntry*>(&slot + 1); }
-HWY_INLINE WideReference* references_of(Slot& slot) { return reinterpret_cast<WideReference*>(&slot + 1); }
+/// The bottom of a slot's stack of entries, or of references.
+template <class Entry>
+HWY_INLINE Entry* bottom_of(Slot& slot) {
+  return reinterpret_cast<Entry*>(&slot + 1) + stack_bottom;
+}
+template <class Entry>
+HWY_INLINE Entry* top_of(const Slot& slot) {
+  return static_cast<Entry*>(slot.top);
+}
+
+/// Of a stack of references that ends at `end` takes the last; there is always one.
+HWY_INLINE WideReference take_last(WideReference* end, Slot& slot) {
+  slot.top = end - 1;
+  return slot.next = end[-1];
+}
 
 /// Slots side by side, each with room for a stack of `capacity` entries. The stride is an odd number of cache lines, so
 /// that slots do not compete for the same sets of the cache.
@@ -82,6 +96,12 @@ struct SlotList {
   std::uint32_t size = 0;
 
   HWY_INLINE void add(std::uint32_t offset) { offsets[size++] = offset; }
+  /// At most eight; eight are read.
+  HWY_INLINE void add(const std::uint32_t* more, std::uint32_t count) {
+    const Words8 d;
+    hn::StoreU(hn::LoadU(d, more), d, offsets + size);
+    size += count;
+  }
   HWY_INLINE void add_all(const Slots& slots) {
     for (int i = 0; i < slots.in_flight(); ++i) add(slots.offset(i));
   }

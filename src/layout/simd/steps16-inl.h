@@ -37,7 +37,7 @@ struct Steps16 {
   static HWY_INLINE Met meet(const Node& node, const Slot& slot) {
     const Ints16 d;
     const BoxHits<Floats16> hits = node.hit(Floats16(), 0, slot);
-    const auto keys = hn::Or(hn::And(hn::BitCast(d, hits.entry), hn::Set(d, ~15)), hn::Iota(d, 0));
+    const auto keys = hn::OrAnd(hn::Iota(d, 0), hn::BitCast(d, hits.entry), hn::Set(d, ~15));
     return {hn::Compress(keys, hn::RebindMask(d, hits.hit)),
             static_cast<std::uint32_t>(std::popcount(bits_of(Floats16(), hits.hit)))};
   }
@@ -58,8 +58,9 @@ struct Steps16 {
     hn::Store(met, d, keys);
     std::sort(keys, keys + count, std::greater<>());
     hn::Store(children_of(node, hn::Load(d, keys)), Words16(), children);
-    for (std::uint32_t i = 0; i < count; ++i) entries_of(slot)[slot.top + i] = {children[i], keys[i]};
-    take(slot.top, count, slot);
+    auto* const top = top_of<StackEntry>(slot);
+    for (std::uint32_t i = 0; i < count; ++i) top[i] = {children[i], keys[i]};
+    take(top, count, slot);
   }
 
   template <int Most>
@@ -133,12 +134,11 @@ struct Steps16 {
       return;
     }
     // Read before anything is changed: both may be the same ray.
-    const std::uint32_t top_a = a.top, top_b = b.top;
-    StackEntry *const entries_a = entries_of(a) + top_a, *const entries_b = entries_of(b) + top_b;
+    auto *const top_a = top_of<StackEntry>(a), *const top_b = top_of<StackEntry>(b);
     if (HWY_LIKELY(std::max(met_a.count, met_b.count) <= 4))
-      push<4>(node_a, node_b, met_a.keys, met_b.keys, entries_a, entries_b);
+      push<4>(node_a, node_b, met_a.keys, met_b.keys, top_a, top_b);
     else
-      push<8>(node_a, node_b, met_a.keys, met_b.keys, entries_a, entries_b);
+      push<8>(node_a, node_b, met_a.keys, met_b.keys, top_a, top_b);
     next[0] = take(top_a, met_a.count, a);
     next[1] = take(top_b, met_b.count, b);
   }
@@ -148,9 +148,8 @@ struct Steps16 {
     const Floats16 d;
     const Node node(view, slot.next);
     const auto hit = hn::RebindMask(Words16(), node.hit(d, 0, slot).hit);
-    WideReference* references = references_of(slot);
-    slot.top += compress_store<Words16>(node.children(d, 0), hit, references + slot.top) - 1;
-    return slot.next = references[slot.top];
+    auto* const top = top_of<WideReference>(slot);
+    return take_last(top + compress_store<Words16>(node.children(d, 0), hit, top), slot);
   }
 };
 
@@ -170,7 +169,7 @@ struct Steps16 {
     const EightChildren::Floats8 d;
     Slot& slot = slots.at(*offsets);
     const OpenNode<Store> node(view, slot.next);
-    StackEntry* const top = entries_of(slot) + slot.top;
+    auto* const top = top_of<StackEntry>(slot);
     const std::uint32_t first = EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), top);
     const std::uint32_t second = EightChildren::push(node.hit(d, 8, slot), node.children(d, 8), top + first);
     // The last of the first half and the last of all change places when the former is nearer. Where there is none, both
@@ -178,17 +177,16 @@ struct Steps16 {
     const int last = static_cast<int>(first + second) - 1, end_of_first = static_cast<int>(first) - 1;
     const bool swap = (first != 0) & (second != 0) & (top[end_of_first].key < top[last].key);
     std::swap(top[swap ? end_of_first : last], top[last]);
-    *next = take(slot.top, first + second, slot);
+    *next = take(top, first + second, slot);
   }
 
   static HWY_INLINE WideReference any(const WideView& view, Slot& slot) {
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
     const auto met = [&](int begin) { return hn::RebindMask(Words8(), node.hit(d, begin, slot).hit); };
-    WideReference* references = references_of(slot);
-    slot.top += compress_store(node.children(d, 0), met(0), references + slot.top);
-    slot.top += compress_store(node.children(d, 8), met(8), references + slot.top) - 1;
-    return slot.next = references[slot.top];
+    auto* top = top_of<WideReference>(slot);
+    top += compress_store(node.children(d, 0), met(0), top);
+    return take_last(top + compress_store(node.children(d, 8), met(8), top), slot);
   }
 };
 

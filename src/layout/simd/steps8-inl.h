@@ -47,10 +47,11 @@ struct EightChildren {
 };
 
 /// Takes the top after `count` children were pushed at `top`; nothing when none was.
-HWY_INLINE WideReference take(std::uint32_t top, std::uint32_t count, Slot& slot) {
-  const std::uint32_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
-  slot.top = top + count - some;
-  return slot.next = entries_of(slot)[slot.top].reference & (0u - some);
+HWY_INLINE WideReference take(StackEntry* top, std::size_t count, Slot& slot) {
+  const std::size_t some = (count + 0xff) >> 8;  // 1 when any was; arithmetic, lest the compiler make a branch
+  top += count - some;
+  slot.top = top;
+  return slot.next = top->reference & (0u - static_cast<std::uint32_t>(some));
 }
 
 template <class StoreType>
@@ -69,8 +70,8 @@ struct Steps8 {
     Slot& slot = slots.at(*offsets);
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
-    const std::uint32_t top = slot.top;
-    *next = take(top, EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), entries_of(slot) + top), slot);
+    StackEntry* const top = top_of<StackEntry>(slot);
+    *next = take(top, EightChildren::push(node.hit(d, 0, slot), node.children(d, 0), top), slot);
   }
 
   /// Any hit: pushes the children met in no order, and takes the top of the stack.
@@ -78,9 +79,8 @@ struct Steps8 {
     const EightChildren::Floats8 d;
     const OpenNode<Store> node(view, slot.next);
     const auto hits = node.hit(d, 0, slot);
-    WideReference* references = references_of(slot);
-    slot.top += compress_store(node.children(d, 0), hn::RebindMask(Words8(), hits.hit), references + slot.top) - 1;
-    return slot.next = references[slot.top];
+    auto* const top = top_of<WideReference>(slot);
+    return take_last(top + compress_store(node.children(d, 0), hn::RebindMask(Words8(), hits.hit), top), slot);
   }
 };
 

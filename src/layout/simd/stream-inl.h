@@ -150,11 +150,11 @@ class AnyStream {
       const std::size_t count = std::min<std::size_t>(8, indices.size() - begin);
       const auto index = [&](std::size_t i) { return indices[begin + std::min(i, count - 1)]; };
       const std::uint32_t first = size;
-      const std::uint32_t valid = load_eight<Store::row_bytes>(
+      const LoadedRays loaded = load_eight<Store::row_bytes>(
           view_.reach, [&](std::size_t i) HWY_ATTR -> const Ray& { return rays_[index(i)]; },
           [&](std::size_t i) HWY_ATTR -> Slot& { return memory_.slots[first + i]; });
       for (std::uint32_t i = 0; i < count; ++i) {
-        if ((valid >> i & 1) == 0) continue;
+        if ((loaded.valid >> i & 1) == 0) continue;
         if (size != first + i) memory_.slots[size] = memory_.slots[first + i];
         memory_.slots[size++].index = index(i);
       }
