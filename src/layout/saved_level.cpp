@@ -16,7 +16,8 @@ const SavedKindEntry& entry_of(SavedKind kind) {
     if (entry.kind == kind) return entry;
   }
   throw Error(
-      fmt::format("it has a level of kind {}, which this program does not know", static_cast<std::uint32_t>(kind)));
+      fmt::format("it has a level of kind {}, which this version of the program does not read: save the structure anew",
+                  static_cast<std::uint32_t>(kind)));
 }
 
 void check_facts(const SavedFacts& facts, const TraceOptions& trace) {
@@ -57,8 +58,8 @@ std::string find_bad_leaf(const SavedLevel& level) {
 }  // namespace
 
 std::string find_damage(const SavedLevel& level, const TraceOptions& trace) try {
+  const SavedKindEntry& entry = entry_of(level.facts.kind);  // first: what facts mean is up to the kind
   check_facts(level.facts, trace);
-  const SavedKindEntry& entry = entry_of(level.facts.kind);
   if (std::string damage = find_bad_leaf(level); !damage.empty()) return damage;
   return entry.damage_in(level);
 } catch (const Error& error) {
@@ -66,8 +67,9 @@ std::string find_damage(const SavedLevel& level, const TraceOptions& trace) try 
 }
 
 std::shared_ptr<const Layout> layout_of(const SavedLevel& level, const TraceOptions& trace) {
+  const SavedKindEntry& entry = entry_of(level.facts.kind);
   check_facts(level.facts, trace);
-  return entry_of(level.facts.kind).restore(level, trace);
+  return entry.restore(level, trace);
 }
 
 Box bounds_of(const SavedLevel& level) { return entry_of(level.facts.kind).bounds(level); }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 #include "layout/compressed/packed_leaf.h"
 #include "layout/compressed/quantized_node.h"
@@ -173,6 +174,17 @@ TEST(DamagedStructure, NodesInACircleAndWalksWithoutRoomAreRefused) {
     EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
     rewrite(folder.file("good"), folder.file("bad"), 2, with_word(facts, offsetof(SavedFacts, stack), 1), 1);
     EXPECT_NE(refusal(folder.file("bad")), "") << root.recipe;
+  }
+}
+
+TEST(DamagedStructure, ALevelOfAKindThatIsNoLongerReadIsRefusedByItsKind) {
+  const Folder folder;
+  save(build(sphere(8), "median(leaf=8) > collapse(16) > compressed(16)"), folder.file("good"));
+  const std::string facts = section_bytes(folder.file("good"), 2);
+  for (const std::uint32_t kind : {0u, 5u, 99u}) {
+    rewrite(folder.file("good"), folder.file("bad"), 2, with_word(facts, offsetof(SavedFacts, kind), kind), 1);
+    const std::string why = refusal(folder.file("bad"));
+    EXPECT_NE(why.find("a level of kind " + std::to_string(kind) + ", which"), std::string::npos) << why;
   }
 }
 
