@@ -148,7 +148,7 @@ class BatchThroughInstances {
     std::uint32_t visits = 0;
     for (std::uint32_t a = 0; a < active_count_; ++a) {
       const std::uint32_t i = active_[a];
-      std::uint32_t leaf;
+      std::uint32_t leaf = 0;
       if (query_.finished(i)) continue;
       LeafStep step;
       do {
