@@ -15,9 +15,8 @@ const SavedKindEntry& entry_of(SavedKind kind) {
   for (const SavedKindEntry& entry : entries) {
     if (entry.kind == kind) return entry;
   }
-  throw Error(
-      fmt::format("it has a level of kind {}, which this version of the program does not read: save the structure anew",
-                  static_cast<std::uint32_t>(kind)));
+  throw Error(fmt::format("it has a level of kind {}, which this version of the program does not read",
+                          static_cast<std::uint32_t>(kind)));
 }
 
 void check_facts(const SavedFacts& facts, const TraceOptions& trace) {
