@@ -18,8 +18,8 @@ struct TriangleLeaves;
 struct InstanceLeaves;
 
 /// How a level is encoded; the number stands in files. 4 was `quantized` when all its leaves named triangles, 5 when
-/// all its grids had steps of powers of two.
-enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 6 };
+/// all its grids had steps of powers of two, 6 when packed leaves did not begin each axis with a byte.
+enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 7 };
 
 /// What kernels must know of a level besides its arrays. Stands in files as it is, 128 bytes; members that a kind of
 /// level does not use are zero.

@@ -209,14 +209,20 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
     return !refusal(folder.file("bad")).empty();
   };
   EXPECT_FALSE(refused(leaf, head));
-  EXPECT_TRUE(refused(leaf, head | 63u << 7)) << "longer than it is";
-  const PackedLeafHead good(head);
-  const std::uint32_t left = good.bits[0] + good.bits[1] + good.bits[2] - 33;
-  const std::uint32_t rest = head & ~(0x3ffffu << 7);
-  EXPECT_TRUE(refused(leaf, rest | 33u << 7 | left / 2 << 13 | (left - left / 2) << 19)) << "33 bits per difference";
+  EXPECT_TRUE(refused(leaf, head | 31u << PackedLeafHead::begin_of_codes)) << "longer than it is";
+  EXPECT_TRUE(refused(leaf, head | PackedLeafHead::zeros)) << "a bit that means nothing";
   EXPECT_TRUE(refused(leaf, head | packed_more)) << "more parts than there are";
   EXPECT_TRUE(refused(leaf + 4, 0x3fffffff)) << "a triangle that the mesh does not have";
   EXPECT_TRUE(refused(leaf + 8, word_at(nodes, leaf + 8) | 15u)) << "a corner that the leaf does not have";
+  const std::size_t joined = leaf + PackedLeafHead::begin_of_joined / 8;
+  EXPECT_TRUE(refused(joined, word_at(nodes, joined) | 1u)) << "no first triangle";
+  EXPECT_TRUE(refused(joined, word_at(nodes, joined) ^ 4u)) << "another count of numbers than there is room for";
+  // Of one kind and another length of bits the kernels know nothing; it takes no more room than there is.
+  const PackedLeafHead good(head);
+  std::uint32_t wide = head & ~(0x7fffu << PackedLeafHead::begin_of_codes) & ~15u;
+  wide |= 26u << PackedLeafHead::begin_of_codes;
+  ASSERT_LE(PackedLeafHead(wide).words(), good.words());
+  EXPECT_TRUE(refused(leaf, wide)) << "26 bits per difference";
 }
 
 TEST(DamagedStructure, SectionsOfAnotherSizeAreRefused) {

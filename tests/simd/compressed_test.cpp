@@ -144,7 +144,7 @@ TEST_P(CompressedOf, Answers_HaveTheBitsOfBruteForce) {
 
 std::vector<CompressedCase> compressed_cases() {
   std::vector<CompressedCase> out;
-  const auto targets = testable_targets();
+  const auto targets = testable_targets({HWY_SSE4, HWY_AVX2, HWY_AVX3, HWY_AVX3_DL});
   for (const char* scene : test_scene_names) {
     for (const std::uint32_t width : {8u, 16u}) {
       for (const std::uint32_t leaf : {1u, 8u, 11u, 16u}) out.push_back({scene, width, leaf, targets.back()});
@@ -180,9 +180,10 @@ Mesh separate_triangles(std::span<const Vec3> corners) {
 
 std::array<std::uint32_t, 3> bits_of(const Vec3& p) { return std::bit_cast<std::array<std::uint32_t, 3>>(p); }
 
-/// Every part of a packed leaf as the kernels of one instruction set unpack it, and as bits are taken one by one.
-void expect_unpacks(const Mesh& mesh, std::span<const std::uint32_t> names) {
+/// Every part of a packed leaf as the kernels of one instruction set unpack it. Its triangles come in ascending order.
+void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names) {
   std::size_t done = 0;
+  std::ranges::sort(names);
   for_each_packed(names, mesh, [&](const OwnCorners& part, bool more) {
     std::vector<std::uint32_t> words(part.words() + words_at_once);
     part.pack(words.data(), more);
@@ -190,13 +191,15 @@ void expect_unpacks(const Mesh& mesh, std::span<const std::uint32_t> names) {
     HWY_NAMESPACE::unpack_leaf(words.data(), block);
     const PackedLeafHead head(words[0]);
     ASSERT_EQ(head.words(), part.words());
-    ASSERT_EQ(head.triangles, part.triangles());
     ASSERT_LE(head.corners, most_packed_corners);
     ASSERT_EQ((block.primitives[0] & more_blocks) != 0, more);
     for (std::size_t lane = 0; lane < 8; ++lane) {
       const bool used = lane < part.triangles();
       const std::uint32_t name = names[done + (used ? lane : 0)];
       ASSERT_EQ(used ? block.primitives[lane] & ~more_blocks : name, name);
+      if (used) {
+        ASSERT_EQ(HWY_NAMESPACE::number_of_packed(words.data(), static_cast<std::uint32_t>(lane)), name);
+      }
       for (std::size_t vertex = 0; vertex < 3; ++vertex) {
         const Vec3 got{block.vertices[vertex][0][lane], block.vertices[vertex][1][lane],
                        block.vertices[vertex][2][lane]};
@@ -215,7 +218,7 @@ TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
     const float place = std::ldexp(1.0f, static_cast<int>(random.between(-40, 39)));
     const float size = std::ldexp(place, -static_cast<int>(random.between(0, 30)));
     const Vec3 center = random.point(-place, place);
-    std::vector<Vec3> corners(3 * static_cast<std::size_t>(random.between(1, 20)));
+    std::vector<Vec3> corners(3 * static_cast<std::size_t>(random.between(1, most_triangles_in_parts + 1)));
     for (std::size_t i = 0; i < corners.size(); ++i) {
       corners[i] = i > 2 && n % 3 != 0 && random.between(0, 1) < 0.7f ? corners[i - 1 - i / 2]
                                                                       : center + random.point(-size, size);
@@ -223,8 +226,10 @@ TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
       if (n % 7 == 0) corners[i].x *= i % 2 == 0 ? 1e-30f : -1;
     }
     const Mesh mesh = separate_triangles(corners);
-    std::vector<std::uint32_t> names(mesh.triangles.size());
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = static_cast<std::uint32_t>(names.size() - 1 - i);
+    std::vector<std::uint32_t> names;
+    for (std::size_t i = mesh.triangles.size(); i-- > 0;) {
+      if (n % 2 == 0 || i == 0 || random.between(0, 1) < 0.6f) names.push_back(static_cast<std::uint32_t>(i));
+    }
     ASSERT_NO_FATAL_FAILURE(expect_unpacks(mesh, names)) << n;
   }
 }
@@ -263,6 +268,57 @@ TEST(Compressed, SeparateTriangles_NameThoseThatNeedMoreThanTwentyBytes) {
   const auto layout = encode_compressed(8, test_tree(separate, 8, 8), separate);
   EXPECT_LE(layout->bytes(), bytes_per_triangle * separate.triangles.size());
   EXPECT_GE(layout->bytes(), (bytes_per_triangle - 1) * separate.triangles.size()) << "what there is room for is used";
+}
+
+TEST(Compressed, BytesThatARecipeAllows_AreUsedForCornersOfLeaves) {
+  const Mesh mesh = test_scene("random").meshes.front();
+  const Tree tree = test_tree(mesh, 16, 8);
+  std::size_t before = 0;
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{20}, std::size_t{24}, std::size_t{64}}) {
+    const QuantizedArena arena = encode_quantized<QuantizedNode16>(tree, mesh, bytes);
+    EXPECT_GT(arena.bytes(), before);
+    EXPECT_LE(arena.bytes(), std::max<std::size_t>(bytes, 19) * mesh.triangles.size());
+    EXPECT_EQ(arena.view.positions == nullptr, bytes == 64) << "whether kernels look for leaves that name triangles";
+    before = arena.bytes();
+  }
+}
+
+/// Of leaves that hold their own corners and of those that do not: the area for each word that packing adds.
+struct Worth {
+  std::vector<float> packed, named;
+};
+
+/// The same node of both.
+void add_worths(const Tree& tree, std::uint32_t of_tree, const QuantizedArena& arena, WideReference reference,
+                const Mesh& mesh, Worth& out) {
+  const auto* words = reinterpret_cast<const std::uint32_t*>(arena.memory.data());
+  const auto& node = *reinterpret_cast<const QuantizedNode16*>(words + (reference >> 1));
+  for (std::uint32_t c = 0; c < tree.nodes[of_tree].count; ++c) {
+    const std::uint32_t i = tree.nodes[of_tree].first + c;
+    const Tree::Node& child = tree.nodes[i];
+    if (!child.is_leaf()) {
+      add_worths(tree, i, arena, node.children[c], mesh, out);
+      continue;
+    }
+    std::size_t size = 0;
+    for_each_packed(std::span(tree.references).subspan(child.first, child.count), mesh,
+                    [&](const OwnCorners& part, bool) { size += part.words(); });
+    const bool packed = (words[node.children[c] >> 1] & packed_leaf) != 0;
+    (packed ? out.packed : out.named).push_back(half_area(child.bounds) / static_cast<float>(size - child.count));
+  }
+}
+
+TEST(Compressed, LeavesThatNameTheirTriangles_AreThoseThatRaysMeetLeastForTheirSize) {
+  const Mesh mesh = test_scene("random").meshes.front();
+  const Tree tree = test_tree(mesh, 16, 8);
+  const QuantizedArena arena = encode_quantized<QuantizedNode16>(tree, mesh);
+  Worth worth;
+  add_worths(tree, 0, arena, arena.view.root, mesh, worth);
+  ASSERT_FALSE(worth.packed.empty());
+  ASSERT_FALSE(worth.named.empty());
+  // But for steps of a 64th, and the last leaf that there was room for.
+  std::ranges::sort(worth.packed, std::greater<>());
+  EXPECT_GE(worth.packed.back() * (1 + 1.0f / 32), std::ranges::max(worth.named));
 }
 
 TEST(Compressed, LeavesTooLargeForTheirNode_AreRefusedOrNumbered) {

@@ -31,11 +31,10 @@ class OnlyTarget {
   static void update() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
 };
 
-/// What this machine can run of what the kernels are compiled for, the best last. What every machine can run comes
-/// first.
-inline std::vector<std::int64_t> testable_targets() {
+/// What this machine can run of what kernels are compiled for, the best last. What every machine can run comes first.
+inline std::vector<std::int64_t> testable_targets(std::initializer_list<std::int64_t> better = {HWY_SSE4, HWY_AVX2,
+                                                                                                HWY_AVX3}) {
   std::vector<std::int64_t> out{HWY_STATIC_TARGET};
-  const std::initializer_list<std::int64_t> better = {HWY_SSE4, HWY_AVX2, HWY_AVX3};
   for (const std::int64_t target : better) {
     if (target < HWY_STATIC_TARGET && (hwy::SupportedTargets() & target) != 0) out.push_back(target);
   }

@@ -1,5 +1,8 @@
 #include "layout/compressed/compressed_kernels.h"
 
+/// Takes bits out of registers of bytes, which plain AVX-512 cannot.
+#define HWY_WANT_AVX3_DL
+
 #include "layout/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,9 @@
 #define BOXWOOD_LAYOUT_COMPRESSED_PACKED_LEAF_INL_H
 #endif
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "layout/compressed/packed_leaf.h"
 #include "layout/simd/lanes-inl.h"
@@ -26,23 +28,39 @@ HWY_INLINE hn::Vec<D> shift_from_above(D d, hn::Vec<D> value, hn::Vec<D> shift) 
 #endif
 }
 
+/// A register full of words from any byte on.
+template <class D>
+HWY_INLINE hn::Vec<D> load_words(D d, const std::uint8_t* bytes) {
+#if HWY_TARGET == HWY_SCALAR
+  std::uint32_t word;
+  std::memcpy(&word, bytes, sizeof word);
+  return hn::Set(d, word);
+#else
+  return hn::BitCast(d, hn::LoadU(hn::Repartition<std::uint8_t, D>(), bytes));
+#endif
+}
+
 /// A register full of numbers, each from the bit `place` of a stream on. Two words hold any of them: the one it begins
 /// in and the next.
 template <class D>
-HWY_INLINE hn::Vec<D> unpack_at(D d, const std::uint32_t* words, hn::Vec<D> place, hn::Vec<D> mask) {
+HWY_INLINE hn::Vec<D> unpack_at(D d, const std::uint8_t* stream, hn::Vec<D> place, hn::Vec<D> mask) {
   const auto word = hn::IndicesFromVec(d, hn::ShiftRight<5>(place));
   const auto shift = hn::And(place, hn::Set(d, 31));
-  const auto low = hn::Shr(hn::TableLookupLanes(hn::LoadU(d, words), word), shift);
-  const auto high = shift_from_above(d, hn::TableLookupLanes(hn::LoadU(d, words + 1), word), shift);
+  const auto low = hn::Shr(hn::TableLookupLanes(load_words(d, stream), word), shift);
+  const auto high = shift_from_above(d, hn::TableLookupLanes(load_words(d, stream + 4), word), shift);
   return hn::And(hn::Or(low, high), mask);
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> mask_of_bits(D d, std::uint32_t bits) {
+  return hn::Set(d, static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1));
 }
 
 /// A register full of numbers of `bits` bits each, from bit `begin` of a stream on.
 template <class D>
-HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint32_t* words, std::uint32_t begin, std::uint32_t bits) {
-  const auto place = hn::Add(hn::Mul(hn::Iota(d, 0), hn::Set(d, bits)), hn::Set(d, begin & 31));
-  return unpack_at(d, words + (begin >> 5), place,
-                   hn::Set(d, static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1)));
+HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint8_t* stream, std::uint32_t begin, std::uint32_t bits) {
+  const auto place = hn::Add(hn::Mul(hn::Iota(d, 0), hn::Set(d, bits)), hn::Set(d, begin & 7));
+  return unpack_at(d, stream + (begin >> 3), place, mask_of_bits(d, bits));
 }
 
 /// Which corner is vertex `vertex` of each triangle from `begin` on.
@@ -52,51 +70,123 @@ HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint32_t* words, int vertex
   return hn::And(hn::Shr(packed, hn::ShiftLeft<2>(hn::Iota(d, 0))), hn::Set(d, 15));
 }
 
-/// The base of an axis in every lane: the upper half of the word that ends with it.
-template <class D>
-HWY_INLINE hn::Vec<D> base_of(D d, const std::uint32_t* words, int axis) {
+/// The base of an axis: its upper half is kept.
+HWY_INLINE std::uint32_t base_of(const std::uint32_t* words, int axis) {
   std::uint32_t word;
-  constexpr std::size_t before = PackedLeafHead::begin_of_bases / 8 - 2;
-  std::memcpy(&word, reinterpret_cast<const std::byte*>(words) + before + 2 * axis, sizeof word);
-  return hn::And(hn::Set(d, word), hn::Set(d, 0xffff0000));
+  constexpr std::size_t lower_half = PackedLeafHead::begin_of_bases / 8 - 2;
+  std::memcpy(&word, reinterpret_cast<const std::byte*>(words) + lower_half + 2 * axis, sizeof word);
+  return word;
 }
+
+#if HWY_TARGET <= HWY_AVX3_DL
+
+/// How to take numbers of each width from a register of bytes.
+struct alignas(64) TakenBits {
+  std::uint8_t bytes[64];  // four for each number, those that its bits are in
+  std::uint32_t shifts[16];
+};
+struct TakenBitsTable {
+  TakenBits of_code[32]{};
+  std::uint32_t masks[32]{};
+
+  constexpr TakenBitsTable() {
+    for (std::uint32_t code = 0; code < 32; ++code) {
+      const std::uint32_t bits = PackedLeafHead::bits_of_code(code);
+      for (std::uint32_t i = 0; i < 64; ++i) {
+        of_code[code].bytes[i] = static_cast<std::uint8_t>((i / 4 * bits / 8 + i % 4) % 64);
+      }
+      for (std::uint32_t i = 0; i < 16; ++i) of_code[code].shifts[i] = i * bits % 8;
+      masks[code] = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
+    }
+  }
+};
+inline constexpr TakenBitsTable taken_bits;
+
+#endif
+
+/// The corners of a packed leaf, an axis after the other.
+template <class D>
+class PackedCorners {
+ public:
+  HWY_INLINE explicit PackedCorners(const std::uint32_t* words)
+      : words_(words),
+        stream_(reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_numbers / 8 +
+                PackedLeafHead(words[0]).bytes_of_numbers),
+        codes_(words[0] >> PackedLeafHead::begin_of_codes),
+        corners_(PackedLeafHead(words[0]).corners) {}
+
+  /// The next axis: calls use(i, the coordinates of a register full of corners from the i-th on). Lanes behind the last
+  /// corner hold anything.
+  template <class Use>
+  HWY_INLINE void next(const Use& use) {
+    const Words d;
+    const std::uint32_t code = codes_ & 31, bits = PackedLeafHead::bits_of_code(code);
+    const auto base = hn::Set(d, base_of(words_, axis_));
+    for (std::uint32_t i = 0; i < corners_; i += lanes_of<D>) {
+      use(i, hn::BitCast(D(), hn::Add(differences(i, code, bits), base)));
+      if constexpr (lanes_of<D> >= most_packed_corners) break;
+    }
+    codes_ >>= 5;
+    ++axis_;
+    stream_ += PackedLeafHead::bytes_of(corners_, bits);
+  }
+
+ private:
+  using Words = hn::RebindToUnsigned<D>;
+
+  HWY_INLINE hn::Vec<Words> differences(std::uint32_t i, [[maybe_unused]] std::uint32_t code,
+                                        std::uint32_t bits) const {
+    const Words d;
+#if HWY_TARGET <= HWY_AVX3_DL
+    if constexpr (lanes_of<D> == 16) {
+      const TakenBits& taken = taken_bits.of_code[code];
+      const hn::Repartition<std::uint8_t, D> bytes;
+      const hn::Vec<Words> words{
+          _mm512_permutexvar_epi8(hn::Load(bytes, taken.bytes).raw, hn::LoadU(bytes, stream_).raw)};
+      return hn::And(hn::Shr(words, hn::Load(d, taken.shifts)), hn::Set(d, taken_bits.masks[code]));
+    }
+#endif
+    return unpack_bits(d, stream_, i * bits, bits);
+  }
+
+  const std::uint32_t* words_;
+  const std::uint8_t* stream_;
+  std::uint32_t codes_, corners_;
+  int axis_ = 0;
+};
 
 #if HWY_TARGET <= HWY_AVX3
 
 /// All corners lie in one register per axis.
-HWY_INLINE void unpack_corners(const std::uint32_t* words, const PackedLeafHead& head, LeafBlock<8>& out) {
-  const hn::FixedTag<float, 16> d;
+HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
+  using D = hn::FixedTag<float, 16>;
+  const D d;
   const hn::FixedTag<std::uint32_t, 16> du;
   const hn::FixedTag<float, 8> half;
   const hn::Vec<decltype(du)> index[3] = {unpack_indices(du, words, 0, 0), unpack_indices(du, words, 1, 0),
                                           unpack_indices(du, words, 2, 0)};
-  std::uint32_t begin = PackedLeafHead::begin_of_corners;
+  PackedCorners<D> corners(words);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto differences = unpack_bits(du, words, begin, head.bits[axis]);
-    const auto corners = hn::BitCast(d, hn::Add(differences, base_of(du, words, axis)));
-    for (int vertex = 0; vertex < 3; ++vertex) {
-      const auto of_triangles = hn::TableLookupLanes(corners, hn::IndicesFromVec(d, index[vertex]));
-      hn::Store(hn::LowerHalf(half, of_triangles), half, out.vertices[vertex][axis]);
-    }
-    begin += head.corners * head.bits[axis];
+    corners.next([&](std::uint32_t, hn::Vec<D> coordinates) HWY_ATTR {
+      for (int vertex = 0; vertex < 3; ++vertex) {
+        const auto of_triangles = hn::TableLookupLanes(coordinates, hn::IndicesFromVec(d, index[vertex]));
+        hn::Store(hn::LowerHalf(half, of_triangles), half, out.vertices[vertex][axis]);
+      }
+    });
   }
 }
 
 #else
 
-HWY_INLINE void unpack_corners(const std::uint32_t* words, const PackedLeafHead& head, LeafBlock<8>& out) {
+HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
   using D = hn::CappedTag<float, 8>;
   const D d;
   const hn::RebindToUnsigned<D> du;
   const hn::RebindToSigned<D> di;
   alignas(64) float corners[3][most_packed_corners];
-  std::uint32_t begin = PackedLeafHead::begin_of_corners;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::uint32_t i = 0; i < head.corners; i += lanes_of<D>) {
-      const auto differences = unpack_bits(du, words, begin + i * head.bits[axis], head.bits[axis]);
-      hn::Store(hn::BitCast(d, hn::Add(differences, base_of(du, words, axis))), d, corners[axis] + i);
-    }
-    begin += head.corners * head.bits[axis];
+  PackedCorners<D> packed(words);
+  for (auto& of_axis : corners) {
+    packed.next([&](std::uint32_t i, hn::Vec<D> coordinates) HWY_ATTR { hn::Store(coordinates, d, of_axis + i); });
   }
   for (int vertex = 0; vertex < 3; ++vertex) {
     for (std::uint32_t i = 0; i < 8; i += lanes_of<D>) {
@@ -112,24 +202,58 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const PackedLeafHead&
 
 /// The number of one triangle of a packed leaf.
 HWY_INLINE std::uint32_t number_of_packed(const std::uint32_t* words, std::uint32_t triangle) {
-  const PackedLeafHead head(words[0]);
-  const std::uint32_t bits = head.bits[3], begin = head.begin_of_numbers() + triangle * bits;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
+  const NumberRuns runs(bytes[PackedLeafHead::begin_of_joined / 8], triangle);
+  const auto bits = static_cast<std::int32_t>(PackedLeafHead(words[0]).bits[3]);
+  // Of the first run nothing is kept: what is before the others is read, and none of it taken. No branch, since runs
+  // come as they like.
+  const auto run = static_cast<std::int32_t>(runs.count()) - 1;
+  const std::int32_t begin = (run - 1) * bits;
   std::uint64_t two;
-  std::memcpy(&two, words + (begin >> 5), sizeof two);
-  return words[1] + static_cast<std::uint32_t>(two >> (begin & 31) & ((std::uint64_t{1} << bits) - 1));
+  std::memcpy(&two, bytes + PackedLeafHead::begin_of_numbers / 8 + (begin >> 3), sizeof two);
+  const std::uint64_t mask = (std::uint64_t{1} << (bits & -static_cast<std::int32_t>(run != 0))) - 1;
+  return words[1] + static_cast<std::uint32_t>(two >> (begin & 7) & mask) + triangle - runs.last();
+}
+
+/// Of eight triangles, by which numbers are one more than the one before: the run that each is in, and in the upper
+/// half of the byte its place there.
+struct RunsTable {
+  std::uint8_t of_joined[1u << most_packed_triangles][most_packed_triangles]{};
+
+  constexpr RunsTable() {
+    for (std::uint32_t joined = 0; joined < std::size(of_joined); ++joined) {
+      for (std::uint32_t i = 0; i < most_packed_triangles; ++i) {
+        const NumberRuns runs(joined & ~1u, i);
+        of_joined[joined][i] = static_cast<std::uint8_t>((runs.count() - 1) | (i - runs.last()) << 4);
+      }
+    }
+  }
+};
+inline constexpr RunsTable runs_table;
+
+/// The numbers of eight triangles; those of missing ones may be any.
+HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
+  const hn::CappedTag<std::uint32_t, most_packed_triangles> d;
+  if constexpr (lanes_of<decltype(d)> == most_packed_triangles) {
+    const std::uint32_t bits = PackedLeafHead(words[0]).bits[3];
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
+    const auto* entries = runs_table.of_joined[bytes[PackedLeafHead::begin_of_joined / 8]];
+    const hn::Rebind<std::uint8_t, decltype(d)> narrow;
+    const auto entry = hn::PromoteTo(d, hn::LoadU(narrow, entries));
+    const auto run = hn::And(entry, hn::Set(d, 15));
+    const auto place = hn::Mul(hn::Sub(hn::Max(run, hn::Set(d, 1)), hn::Set(d, 1)), hn::Set(d, bits));
+    const auto kept = unpack_at(d, bytes + PackedLeafHead::begin_of_numbers / 8, place, mask_of_bits(d, bits));
+    const auto first = hn::Add(hn::Set(d, words[1]), hn::IfThenZeroElse(hn::Eq(run, hn::Zero(d)), kept));
+    hn::Store(hn::Add(first, hn::ShiftRight<4>(entry)), d, out);
+  } else {
+    for (std::uint32_t i = 0; i < most_packed_triangles; ++i) out[i] = number_of_packed(words, i);
+  }
 }
 
 /// A packed leaf, or a part of one.
 HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
-  using D = hn::CappedTag<std::uint32_t, 8>;
-  const D d;
-  const PackedLeafHead head(words[0]);
-  unpack_corners(words, head, out);
-  const std::uint32_t begin = head.begin_of_numbers();
-  for (std::uint32_t i = 0; i < 8; i += lanes_of<D>) {
-    const auto differences = unpack_bits(d, words, begin + i * head.bits[3], head.bits[3]);
-    hn::Store(hn::Add(differences, hn::Set(d, words[1])), d, out.primitives + i);
-  }
+  unpack_corners(words, out);
+  unpack_numbers(words, out.primitives);
   static_assert(packed_more == more_blocks);
   out.primitives[0] |= words[0] & packed_more;
 }

@@ -6,9 +6,6 @@
 namespace boxwood {
 namespace {
 
-/// Of a base, the bits that are kept.
-constexpr std::uint32_t kept_of_base = 0xffff0000;
-
 /// Appends numbers to a stream of bits. The words are zero before.
 class BitWriter {
  public:
@@ -21,6 +18,7 @@ class BitWriter {
     if (at_ % 32 + bits > 32) words_[at_ / 32 + 1] |= static_cast<std::uint32_t>(shifted >> 32);
     at_ += bits;
   }
+  void to_next_byte() { at_ = (at_ + 7) / 8 * 8; }
 
  private:
   std::uint32_t* words_;
@@ -46,7 +44,8 @@ OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh) {
   for (const std::uint32_t name : names.first(std::min<std::size_t>(names.size(), most_packed_triangles))) {
     if (!add(name, mesh)) break;
   }
-  measure();
+  measure_corners();
+  measure_numbers();
 }
 
 bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
@@ -68,34 +67,53 @@ bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
   return true;
 }
 
-void OwnCorners::measure() {
-  const auto set = [&](std::size_t stream, std::span<const std::uint32_t> values, std::uint32_t kept) {
-    const auto [least, most] = std::ranges::minmax(values);
-    base_[stream] = least & kept;
-    width_[stream] = static_cast<std::uint32_t>(std::bit_width(most - base_[stream]));
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis) set(axis, std::span(corner_[axis]).first(corners_), kept_of_base);
-  set(3, std::span(names_).first(triangles_), ~0u);
+void OwnCorners::measure_corners() {
+  // The last four indices.
+  std::uint32_t before = 0;
+  for (std::size_t i = 4; i < most_packed_triangles; ++i) before |= std::uint32_t{index_[2][i]} << 4 * (i - 4);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto values = std::span(corner_[axis]).first(corners_);
+    const std::uint32_t upper = (std::ranges::min(values) - before) & 0xffff0000;
+    base_[axis] = upper | before;
+    before = upper >> 16;
+    std::uint32_t bits = 0;
+    for (const std::uint32_t value : values) bits |= value - base_[axis];
+    const auto width = static_cast<std::uint32_t>(std::bit_width(bits));
+    code_[axis] = width <= PackedLeafHead::most_bits ? width : PackedLeafHead::code_of_words;
+  }
+}
+
+void OwnCorners::measure_numbers() {
+  for (std::uint32_t i = 1; i < most_packed_triangles; ++i) {
+    if (i >= triangles_ || names_[i] == names_[i - 1] + 1) joined_ |= 1u << i;
+  }
+  number_bits_ = static_cast<std::uint32_t>(std::bit_width(names_[triangles_ - 1] - names_[0]));
 }
 
 std::uint32_t OwnCorners::head() const {
-  std::uint32_t out = packed_leaf | (triangles_ - 1) | (corners_ - 1) << 3;
-  for (std::size_t i = 0; i < 4; ++i) out |= width_[i] << PackedLeafHead::places[i];
-  return out;
+  using Head = PackedLeafHead;
+  std::uint32_t out = packed_leaf | (corners_ - 1) | number_bits_ << Head::begin_of_width;
+  for (std::size_t i = 0; i < 3; ++i) out |= code_[i] << (Head::begin_of_codes + 5 * i);
+  return out | Head::bytes_of(NumberRuns(joined_).count() - 1, number_bits_) << Head::begin_of_size;
 }
 
 void OwnCorners::pack(std::uint32_t* out, bool more) const {
+  const PackedLeafHead h(head());
   BitWriter bits(out);
   bits.put(head() | (more ? packed_more : 0), 32);
-  bits.put(base_[3], 32);
+  bits.put(names_[0], 32);
   for (const auto& of_vertex : index_) {
     for (const std::uint8_t index : of_vertex) bits.put(index, 4);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) bits.put(base_[axis] >> 16, 16);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], width_[axis]);
+  for (const std::uint32_t base : base_) bits.put(base >> 16, 16);
+  bits.put(joined_, most_packed_triangles);
+  for (std::uint32_t i = 1; i < triangles_; ++i) {
+    if ((joined_ >> i & 1) == 0) bits.put(names_[i] - names_[0], number_bits_);
   }
-  for (std::size_t i = 0; i < triangles_; ++i) bits.put(names_[i] - base_[3], width_[3]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bits.to_next_byte();
+    for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], h.bits[axis]);
+  }
 }
 
 }  // namespace boxwood

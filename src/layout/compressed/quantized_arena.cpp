@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -29,9 +30,6 @@ void for_each_leaf(const Tree& tree, const Visit& visit) {
   });
 }
 
-/// Leaves of more triangles name them: a walk passes over one packed part after the other.
-constexpr std::size_t most_triangles_in_parts = 16;
-
 /// Which leaves hold their own corners.
 class LeafSizes {
  public:
@@ -47,22 +45,30 @@ class LeafSizes {
   /// Words of a leaf; a name takes one.
   std::size_t words(std::size_t leaf) const { return packed_[leaf] != 0 ? packed_[leaf] : tree_.nodes[leaf].count; }
   bool is_packed(std::size_t leaf) const { return packed_[leaf] != 0; }
+  bool names_any() const {
+    for (std::size_t i = 0; i < packed_.size(); ++i) {
+      if (tree_.nodes[i].is_leaf() && !is_packed(i)) return true;
+    }
+    return false;
+  }
   std::size_t total() const {
     std::size_t total = 0;
     for (std::size_t i = 0; i < packed_.size(); ++i) total += tree_.nodes[i].is_leaf() ? words(i) : 0;
     return total;
   }
 
-  /// Has leaves name their triangles, those first that grow most by packing, until all take no more than `most` words.
+  /// Has leaves name their triangles until all take no more than `most` words: those first that rays meet least, by
+  /// their area, for what packing them adds.
   void fit(std::size_t most) {
-    std::array<std::size_t, 256> grown{};
-    for (std::size_t i = 0; i < packed_.size(); ++i) grown[growth(i)] += growth(i);
-    std::size_t total = tree_.references.size(), most_growth = 0;
-    while (most_growth < grown.size() && total + grown[most_growth] <= most) total += grown[most_growth++];
+    if (total() <= most) return;
+    std::vector<std::size_t> grown(buckets);
+    for (std::size_t i = 0; i < packed_.size(); ++i) grown[bucket(i)] += growth(i);
+    std::size_t total = tree_.references.size(), last = buckets - 1;
+    while (total + grown[last] <= most) total += grown[last--];
     for (std::size_t i = 0; i < packed_.size(); ++i) {
-      if (growth(i) < most_growth) continue;
-      if (growth(i) == most_growth && total + most_growth <= most) {
-        total += most_growth;
+      if (bucket(i) > last || growth(i) == 0) continue;
+      if (bucket(i) == last && total + growth(i) <= most) {
+        total += growth(i);
       } else {
         packed_[i] = 0;
       }
@@ -84,7 +90,17 @@ class LeafSizes {
 
  private:
   /// Words that packing takes beyond names.
-  std::size_t growth(std::size_t i) const { return packed_[i] != 0 ? packed_[i] - tree_.nodes[i].count : 0u; }
+  std::size_t growth(std::size_t i) const {
+    return packed_[i] > tree_.nodes[i].count ? packed_[i] - tree_.nodes[i].count : 0u;
+  }
+
+  /// By how much area a leaf has for each word that packing adds, 64 steps for a factor of two: the upper bits of that
+  /// quotient as a float.
+  static constexpr std::size_t buckets = std::size_t{1} << 14;
+  std::size_t bucket(std::size_t i) const {
+    const float area = half_area(tree_.nodes[i].bounds) / static_cast<float>(std::max<std::size_t>(growth(i), 1));
+    return std::bit_cast<std::uint32_t>(std::max(area, 0.0f)) >> 17;
+  }
 
   std::size_t words_before_last(const Tree::Node& node) const {
     std::size_t before = 0, all = 0;
@@ -104,7 +120,7 @@ class LeafSizes {
 template <class Node>
 class Encoder {
  public:
-  Encoder(const Tree& tree, const Mesh& mesh, QuantizedArena& out)
+  Encoder(const Tree& tree, const Mesh& mesh, std::size_t bytes_per_triangle, QuantizedArena& out)
       : tree_(tree), mesh_(mesh), out_(out), sizes_(tree, mesh), places_(tree.nodes.size()) {
     const auto inner = static_cast<std::size_t>(
         std::ranges::count_if(tree.nodes, [](const Tree::Node& node) { return !node.is_leaf(); }));
@@ -132,6 +148,8 @@ class Encoder {
   }
 
   std::size_t node_bytes() const { return node_bytes_; }
+  /// Whether any leaf only names triangles.
+  bool needs_mesh() const { return sizes_.names_any(); }
 
  private:
   static constexpr std::uint32_t words_per_node = sizeof(Node) / sizeof(std::uint32_t);
@@ -238,9 +256,9 @@ float reach_of_box(const Box& box) {
 
 }  // namespace
 
-bool has_quantized_names(const Tree& tree, const Mesh& mesh) {
+bool has_quantized_names(const Tree& tree, const Mesh& mesh, std::size_t bytes) {
   constexpr std::size_t most_words = std::size_t{1} << 31, words_per_node = sizeof(QuantizedNode16) / 4;
-  return (tree.nodes.size() + 2) * words_per_node + tree.references.size() * (bytes_per_triangle / 4) < most_words &&
+  return (tree.nodes.size() + 2) * words_per_node + tree.references.size() * bytes / 4 < most_words &&
          mesh.triangles.size() <= packed_leaf;
 }
 
@@ -268,9 +286,9 @@ bool fits_eight(const Tree& tree) {
 }
 
 template <class Node>
-QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
+QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh, std::size_t bytes) {
   QuantizedArena out;
-  Encoder<Node> encoder(tree, mesh, out);
+  Encoder<Node> encoder(tree, mesh, bytes, out);
   encoder.run();
   out.shape.lanes = sizeof(Node::planes[0]);
   if (!tree.empty()) {
@@ -281,13 +299,14 @@ QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh) {
   out.triangles = mesh.triangles;
   out.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   out.view = quantized_view(out.memory.data(), sizeof(Node), out.positions, out.triangles);
+  if (!encoder.needs_mesh()) out.view.positions = nullptr;
   out.view.reach = tree.empty() ? 0 : reach_of_box(out.bounds);
   out.view.stack = needs_of(tree).stack;
   out.view.out_of_cache = out.bytes() + mesh.positions.size() * sizeof(Vec3) > small_tree_bytes;
   return out;
 }
 
-template QuantizedArena encode_quantized<QuantizedNode8>(const Tree&, const Mesh&);
-template QuantizedArena encode_quantized<QuantizedNode16>(const Tree&, const Mesh&);
+template QuantizedArena encode_quantized<QuantizedNode8>(const Tree&, const Mesh&, std::size_t);
+template QuantizedArena encode_quantized<QuantizedNode16>(const Tree&, const Mesh&, std::size_t);
 
 }  // namespace boxwood

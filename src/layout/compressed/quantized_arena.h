@@ -30,11 +30,12 @@ struct QuantizedArena {
   void save(SavedLevel& out) const;
 };
 
-/// Bytes beside the mesh that leaves may bring a tree to by holding their own corners, per triangle.
+/// Bytes beside the mesh that leaves may bring a tree to by holding their own corners, per triangle, unless a recipe
+/// says another number.
 inline constexpr std::size_t bytes_per_triangle = 20;
 
 /// Whether places of nodes and leaves fit 31 bits, of which references use the rest, and names of triangles 30. O(1).
-bool has_quantized_names(const Tree& tree, const Mesh& mesh);
+bool has_quantized_names(const Tree& tree, const Mesh& mesh, std::size_t bytes);
 
 /// The root is the first node but one.
 constexpr WideReference quantized_root(std::size_t node_bytes) {
@@ -48,9 +49,10 @@ WideView quantized_view(const std::byte* memory, std::size_t node_bytes, std::sp
 bool fits_eight(const Tree& tree);
 
 /// Encodes a tree of arity up to 8 or 16, by the node type, over the triangles of `mesh`. Throws UsageError when
-/// nodes of eight are asked for and fits_eight() does not hold. Leaves hold their own corners, those first that grow
-/// least by it, as long as the whole takes no more than `bytes_per_triangle`; others name triangles. O(n).
+/// nodes of eight are asked for and fits_eight() does not hold. Leaves hold their own corners, those first that have
+/// most area for what that adds, as long as the whole takes no more than so many bytes per triangle; others name
+/// triangles. O(n).
 template <class Node>
-QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh);
+QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh, std::size_t bytes = bytes_per_triangle);
 
 }  // namespace boxwood

@@ -116,22 +116,39 @@ class QuantizedCheck {
     for (bool more = true; more;) {
       if (place >= words_.size()) return false;
       const PackedLeafHead head(words_[place]);
-      if (!take_words(place, head.words()) || !is_sound_packed(&words_[place])) return false;
+      if (!take_words(place, head.words()) || !is_sound_packed(&words_[place], head)) return false;
       more = (words_[place] & packed_more) != 0;
       place += head.words();
     }
     return true;
   }
 
-  bool is_sound_packed(const std::uint32_t* words) const {
-    const PackedLeafHead head(words[0]);
-    if ((words[0] & packed_leaf) == 0 || std::ranges::max(head.bits) > 32) return false;
-    PackedBits indices(words, PackedLeafHead::begin_of_indices), numbers(words, head.begin_of_numbers());
-    for (std::uint32_t i = 0; i < 3 * most_packed_triangles; ++i) {
-      if (indices.take(4) >= head.corners) return false;
+  bool is_sound_packed(const std::uint32_t* words, const PackedLeafHead& head) const {
+    if ((words[0] & packed_leaf) == 0 || (words[0] & PackedLeafHead::zeros) != 0) return false;
+    for (const std::uint32_t bits : std::span(head.bits).first(3)) {
+      if (bits > PackedLeafHead::most_bits && bits != 32) return false;
     }
-    for (std::uint32_t i = 0; i < head.triangles; ++i) {
-      if (std::uint64_t{words[1]} + numbers.take(head.bits[3]) >= mesh_.triangles.size()) return false;
+    PackedBits joined(words, PackedLeafHead::begin_of_joined);
+    const NumberRuns runs(joined.take(most_packed_triangles));
+    if ((runs.firsts & 1) == 0) return false;
+    if (head.bytes_of_numbers != PackedLeafHead::bytes_of(runs.count() - 1, head.bits[3])) return false;
+    return are_sound_triangles(words, head, runs);
+  }
+
+  /// Those that are missing are points, and have no number.
+  bool are_sound_triangles(const std::uint32_t* words, const PackedLeafHead& head, const NumberRuns& runs) const {
+    PackedBits numbers(words, PackedLeafHead::begin_of_numbers);
+    std::uint64_t number = words[1];
+    for (std::uint32_t i = 0; i < most_packed_triangles; ++i) {
+      std::uint32_t corner[3];
+      for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
+        corner[vertex] = PackedBits(words, PackedLeafHead::begin_of_indices + 32 * vertex + 4 * i).take(4);
+        if (corner[vertex] >= head.corners) return false;
+      }
+      const bool first = (runs.firsts >> i & 1) != 0;
+      if (i != 0) number = first ? std::uint64_t{words[1]} + numbers.take(head.bits[3]) : number + 1;
+      const bool point = corner[0] == corner[1] && corner[0] == corner[2];
+      if (number >= mesh_.triangles.size() && !point) return false;
     }
     return true;
   }

@@ -73,18 +73,12 @@ struct RayPair {
   static HWY_INLINE hn::Vec<D> both(float low, float high) {
     return hn::IfThenElse(hn::FirstN(D(), 8), hn::Set(D(), low), hn::Set(D(), high));
   }
-  /// Within the range of t of each.
-  HWY_INLINE TriangleHits<D> hit(const Vertices<D> (&triangles)[3]) const {
-    const TriangleRay& x = a.leaf;
-    const TriangleRay& y = b.leaf;
-    const ShearedRays<D> rays{both(x.origin[0], y.origin[0]), both(x.origin[1], y.origin[1]),
-                              both(x.origin[2], y.origin[2]), both(x.shear_x, y.shear_x),
-                              both(x.shear_y, y.shear_y),     both(x.scale_z, y.scale_z)};
-    TriangleHits<D> hits = hit_triangles(D(), triangles, rays);
-    hits.hit = hn::And(hits.hit,
-                       hn::And(hn::Ge(hits.t, both(a.t_near, b.t_near)), hn::Le(hits.t, both(a.t_limit, b.t_limit))));
-    return hits;
+  /// Those within the range of t of each.
+  HWY_INLINE TriangleHits<D> in_range(const TriangleHits<D>& hits) const {
+    const auto in = hn::And(hn::Ge(hits.t, both(a.t_near, b.t_near)), hn::Le(hits.t, both(a.t_limit, b.t_limit)));
+    return {hn::And(hits.hit, in), hits.t, hits.v, hits.w, hits.determinant};
   }
+  HWY_INLINE hn::Vec<D> scale_z() const { return both(a.leaf.scale_z, b.leaf.scale_z); }
   HWY_INLINE TriangleHits<D> hit(const LeafBlock<8>& block_a, const LeafBlock<8>& block_b) const {
     const auto vertices = [&](int vertex) HWY_ATTR {
       const auto coordinate = [&](int axis) HWY_ATTR {
@@ -92,10 +86,21 @@ struct RayPair {
       };
       return Vertices<D>{coordinate(0), coordinate(1), coordinate(2)};
     };
-    const Vertices<D> triangles[3] = {vertices(0), vertices(1), vertices(2)};
-    return hit(triangles);
+    const TriangleRay& x = a.leaf;
+    const TriangleRay& y = b.leaf;
+    const ShearedRays<D> rays{both(x.origin[0], y.origin[0]), both(x.origin[1], y.origin[1]),
+                              both(x.origin[2], y.origin[2]), both(x.shear_x, y.shear_x),
+                              both(x.shear_y, y.shear_y),     scale_z()};
+    return in_range(hit_triangles(D(), {vertices(0), vertices(1), vertices(2)}, rays));
   }
 };
+
+/// Hits that are kept where they are found, since compilers would take them through memory.
+template <class Keep>
+HWY_INLINE std::uint32_t kept(const TriangleHits<RayPair::D>& hits, const Keep& keep) {
+  keep(hits);
+  return bits_of(RayPair::D(), hits.hit);
+}
 
 /// What the tests of pairs found, kept until the whole pass is tested: hits come as they like, and a branch on each
 /// would be mispredicted as often.
@@ -119,9 +124,10 @@ class PassBlocks {
  public:
   /// Before the first test.
   HWY_INLINE void open(const Slots&, const WideView&, const SlotList&) {}
-  /// The i-th ray of the list, and the next one.
-  HWY_INLINE TriangleHits<RayPair::D> hit(const WideView& view, const RayPair& rays, std::uint32_t i) {
-    return rays.hit(get(view, rays.a, i), get(view, rays.b, i + 1));
+  /// Which triangles the i-th ray of the list and the next one hit, a bit each; calls keep(TriangleHits).
+  template <class Keep>
+  HWY_INLINE std::uint32_t hit(const WideView& view, const RayPair& rays, std::uint32_t i, const Keep& keep) {
+    return kept(rays.hit(get(view, rays.a, i), get(view, rays.b, i + 1)), keep);
   }
   /// The name of a triangle of the i-th ray's block.
   HWY_INLINE std::uint32_t primitive(std::uint32_t i, std::uint32_t lane) const {
@@ -167,9 +173,9 @@ struct LeafSteps<Store, 8> {
     leaves.open(slots, view, list);
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       const RayPair rays{slots.at(list.offsets[i]), slots.at(list.offsets[i + 1])};
-      const TriangleHits<RayPair::D> found = leaves.hit(view, rays, i);
-      hits.pairs[i / 2].store(found);
-      const std::uint32_t bits = bits_of(RayPair::D(), found.hit);
+      StoredHits<RayPair::D>& pair = hits.pairs[i / 2];
+      const std::uint32_t bits =
+          leaves.hit(view, rays, i, [&pair](const TriangleHits<RayPair::D>& found) HWY_ATTR { pair.store(found); });
       hits.note(i, bits & 0xff);
       hits.note(i + 1, bits >> 8);
     }
@@ -192,7 +198,7 @@ struct LeafSteps<Store, 8> {
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       Slot& a = slots.at(list.offsets[i]);
       Slot& b = slots.at(list.offsets[i + 1]);
-      const std::uint32_t bits = bits_of(RayPair::D(), leaves.hit(view, {a, b}, i).hit);
+      const std::uint32_t bits = leaves.hit(view, {a, b}, i, [](const TriangleHits<RayPair::D>&) HWY_ATTR {});
       bool found_a = (bits & 0xff) != 0, found_b = (bits & 0xff00) != 0;
       if (HWY_UNLIKELY(leaves.any_goes_on())) {
         found_a = found_a || more_found(i, a);

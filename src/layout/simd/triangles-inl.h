@@ -85,9 +85,10 @@ HWY_INLINE Vertices<D> shear(D d, const Vertices<D>& p, const ShearedRays<D>& ra
           fused_negative(d, ray.shear_y, z, hn::Sub(p.y, ray.origin_y)), z};
 }
 
+/// Of triangles whose vertices are sheared.
 template <class D>
-HWY_INLINE TriangleHits<D> hit_triangles(D d, const Vertices<D> (&triangle)[3], const ShearedRays<D>& ray) {
-  const Vertices<D> a = shear(d, triangle[0], ray), b = shear(d, triangle[1], ray), c = shear(d, triangle[2], ray);
+HWY_INLINE TriangleHits<D> hit_sheared(D d, const Vertices<D>& a, const Vertices<D>& b, const Vertices<D>& c,
+                                       hn::Vec<D> scale_z) {
   const auto u = difference_of_products(d, c.x, b.y, c.y, b.x);
   const auto v = difference_of_products(d, a.x, c.y, a.y, c.x);
   const auto w = difference_of_products(d, b.x, a.y, b.y, a.x);
@@ -97,7 +98,13 @@ HWY_INLINE TriangleHits<D> hit_triangles(D d, const Vertices<D> (&triangle)[3], 
   const auto inside = hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)),
                               hn::Ge(hn::Abs(determinant), hn::Set(d, least_determinant)));
   const auto z = fused(d, u, a.z, fused(d, v, b.z, hn::Mul(w, c.z)));
-  return {inside, hn::Mul(hn::Div(z, determinant), ray.scale_z), v, w, determinant};
+  return {inside, hn::Mul(hn::Div(z, determinant), scale_z), v, w, determinant};
+}
+
+template <class D>
+HWY_INLINE TriangleHits<D> hit_triangles(D d, const Vertices<D> (&triangle)[3], const ShearedRays<D>& ray) {
+  return hit_sheared(d, shear(d, triangle[0], ray), shear(d, triangle[1], ray), shear(d, triangle[2], ray),
+                     ray.scale_z);
 }
 
 /// One vertex of a block's triangles from `begin` on, in the ray's axis order.
