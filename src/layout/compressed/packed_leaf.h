@@ -37,8 +37,7 @@ struct NumberRuns {
 ///   160  the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
 ///   208  of each triangle a bit: whether its number is one more than that of the one before; of missing ones 1
 ///   216  of each triangle where it is not, but the first, its number less the least one
-///        from the next whole byte on, of each corner x less its base, modulo 2^32; from the next on the same of y; of
-///        z
+///        from the next whole byte on, of each corner x less its base, modulo 2^32; from the next the same of y; of z
 /// Filled up with zeros to whole words.
 struct PackedLeafHead {
   std::uint32_t corners;
@@ -100,8 +99,10 @@ class OwnCorners {
   std::uint32_t joined_ = 0, number_bits_ = 0;
 };
 
-/// Calls use(triangles with their corners, whether more follow) for all parts of a leaf of up to so many triangles.
+/// Larger leaves name their triangles: a walk passes over one packed part after the other.
 inline constexpr std::size_t most_triangles_in_parts = 16;
+
+/// Calls use(triangles with their corners, whether more follow) for all parts of a leaf of up to so many triangles.
 template <class Use>
 void for_each_packed(std::span<const std::uint32_t> of_leaf, const Mesh& mesh, const Use& use) {
   std::array<std::uint32_t, most_triangles_in_parts> ascending;

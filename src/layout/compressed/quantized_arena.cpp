@@ -258,7 +258,8 @@ float reach_of_box(const Box& box) {
 
 bool has_quantized_names(const Tree& tree, const Mesh& mesh, std::size_t bytes) {
   constexpr std::size_t most_words = std::size_t{1} << 31, words_per_node = sizeof(QuantizedNode16) / 4;
-  return (tree.nodes.size() + 2) * words_per_node + tree.references.size() * bytes / 4 < most_words &&
+  return (tree.nodes.size() + 2) * words_per_node + tree.references.size() * std::max<std::size_t>(bytes, 4) / 4 <
+             most_words &&
          mesh.triangles.size() <= packed_leaf;
 }
 
