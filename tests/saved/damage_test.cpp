@@ -1,6 +1,7 @@
 // What happens to a saved structure whose bytes are not those that were written.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -204,10 +205,11 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   const std::uint32_t head = word_at(nodes, leaf);
   ASSERT_NE(head & packed_leaf, 0u);
   ASSERT_LT(PackedLeafHead(head).corners, 16u);
-  const auto refused = [&](std::size_t at, std::uint32_t word) {
-    rewrite(folder.file("good"), folder.file("bad"), 3, with_word(nodes, at, word), 1);
+  const auto is_refused = [&](const std::string& bytes) {
+    rewrite(folder.file("good"), folder.file("bad"), 3, bytes, 1);
     return !refusal(folder.file("bad")).empty();
   };
+  const auto refused = [&](std::size_t at, std::uint32_t word) { return is_refused(with_word(nodes, at, word)); };
   EXPECT_FALSE(refused(leaf, head));
   EXPECT_TRUE(refused(leaf, head | 31u << PackedLeafHead::begin_of_codes)) << "longer than it is";
   EXPECT_TRUE(refused(leaf, head | PackedLeafHead::zeros)) << "a bit that means nothing";
@@ -215,12 +217,20 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   EXPECT_TRUE(refused(leaf + 4, 0x3fffffff)) << "a triangle that the mesh does not have";
   EXPECT_TRUE(refused(leaf + 8, word_at(nodes, leaf + 8) | 15u)) << "a corner that the leaf does not have";
   const std::size_t joined = leaf + PackedLeafHead::begin_of_joined / 8;
-  EXPECT_TRUE(refused(joined, word_at(nodes, joined) | 1u)) << "no first triangle";
+  const std::uint32_t numbers = 31u << PackedLeafHead::begin_of_width | 31u << PackedLeafHead::begin_of_size;
+  const auto all_joined = [&](std::uint32_t bits) {
+    return with_word(with_word(nodes, leaf, head & ~numbers), joined, (word_at(nodes, joined) & ~0xffu) | bits);
+  };
+  EXPECT_FALSE(is_refused(all_joined(0xfe)));
+  EXPECT_TRUE(is_refused(all_joined(0xff))) << "no first triangle";
   EXPECT_TRUE(refused(joined, word_at(nodes, joined) ^ 4u)) << "another count of numbers than there is room for";
-  // Of one kind and another length of bits the kernels know nothing; it takes no more room than there is.
+  // It takes no more room than there is.
   const PackedLeafHead good(head);
-  std::uint32_t wide = head & ~(0x7fffu << PackedLeafHead::begin_of_codes) & ~15u;
-  wide |= 26u << PackedLeafHead::begin_of_codes;
+  ASSERT_GT(good.bits[0] + good.bits[1] + good.bits[2], 27u);
+  const std::uint32_t left = std::min(good.bits[0] + good.bits[1] + good.bits[2] - 27, 25u);
+  const std::uint32_t codes = 26u | left << 10;
+  const std::uint32_t wide =
+      (head & ~(0x7fffu << PackedLeafHead::begin_of_codes)) | codes << PackedLeafHead::begin_of_codes;
   ASSERT_LE(PackedLeafHead(wide).words(), good.words());
   EXPECT_TRUE(refused(leaf, wide)) << "26 bits per difference";
 }
