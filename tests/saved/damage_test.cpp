@@ -223,6 +223,10 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   };
   EXPECT_FALSE(is_refused(all_joined(0xfe)));
   EXPECT_TRUE(is_refused(all_joined(0xff))) << "no first triangle";
+  std::string points = all_joined(0xfe);
+  for (std::size_t vertex = 0; vertex < 3; ++vertex) points = with_word(points, leaf + 8 + 4 * vertex, 0);
+  EXPECT_FALSE(is_refused(points));
+  EXPECT_TRUE(is_refused(with_word(points, leaf + 4, 0xffffffff))) << "a number that says that more follow";
   EXPECT_TRUE(refused(joined, word_at(nodes, joined) ^ 4u)) << "another count of numbers than there is room for";
   // It takes no more room than there is.
   const PackedLeafHead good(head);

@@ -135,7 +135,7 @@ class QuantizedCheck {
     return are_sound_triangles(words, head, runs);
   }
 
-  /// Those that are missing are points, and have no number.
+  /// Those that are missing are points, and have no number. The first is there: its number must not look like a flag.
   bool are_sound_triangles(const std::uint32_t* words, const PackedLeafHead& head, const NumberRuns& runs) const {
     PackedBits numbers(words, PackedLeafHead::begin_of_numbers);
     std::uint64_t number = words[1];
@@ -148,7 +148,7 @@ class QuantizedCheck {
       const bool first = (runs.firsts >> i & 1) != 0;
       if (i != 0) number = first ? std::uint64_t{words[1]} + numbers.take(head.bits[3]) : number + 1;
       const bool point = corner[0] == corner[1] && corner[0] == corner[2];
-      if (number >= mesh_.triangles.size() && !point) return false;
+      if (number >= mesh_.triangles.size() && (i == 0 || !point)) return false;
     }
     return true;
   }
