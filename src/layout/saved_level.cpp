@@ -21,7 +21,8 @@ const SavedKindEntry& entry_of(SavedKind kind) {
 
 void check_facts(const SavedFacts& facts, const TraceOptions& trace) {
   if (facts.instances > 1 || facts.cull > 1 || facts.out_of_cache > 1 || (facts.cull != 0) != trace.cull ||
-      facts.zero[0] != 0 || (facts.vertices != 0 && facts.kind != SavedKind::quantized) ||
+      facts.leaf_forms > (tight_leaves | named_leaves) ||
+      ((facts.vertices | facts.leaf_forms) != 0 && facts.kind != SavedKind::quantized) ||
       std::ranges::any_of(facts.zeros, [](std::uint64_t word) { return word != 0; })) {
     throw Error("it has a level with flags that mean nothing");
   }

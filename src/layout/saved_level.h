@@ -18,8 +18,12 @@ struct TriangleLeaves;
 struct InstanceLeaves;
 
 /// How a level is encoded; the number stands in files. 4 was `quantized` when all its leaves named triangles, 5 when
-/// all its grids had steps of powers of two, 6 when packed leaves did not begin each axis with a byte.
-enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 7 };
+/// all its grids had steps of powers of two, 6 when packed leaves did not begin each axis with a byte, 7 when their
+/// values never repeated.
+enum class SavedKind : std::uint32_t { binary = 1, wide = 2, simd_wide = 3, quantized = 8 };
+
+/// What leaves of a quantized level there may be besides plain packed ones.
+inline constexpr std::uint32_t tight_leaves = 1, named_leaves = 2;
 
 /// What kernels must know of a level besides its arrays. Stands in files as it is, 128 bytes; members that a kind of
 /// level does not use are zero.
@@ -36,7 +40,7 @@ struct SavedFacts {
   Box root_box{{0, 0, 0}, {0, 0, 0}};
   Link root;
   std::uint32_t primitives = 0;  ///< one more than the largest number of a triangle, or an instance, in it
-  std::uint32_t zero[1] = {};
+  std::uint32_t leaf_forms = 0;  ///< tight_leaves, named_leaves (quantized)
   std::uint64_t nodes = 0, inner_children = 0, triangles = 0;  ///< WideShape
   std::uint64_t vertices = 0;                                  ///< of the mesh that `leaves` ends with (quantized)
   std::uint64_t zeros[2] = {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 
 #include "layout/compressed/packed_leaf.h"
@@ -195,48 +196,128 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   return word;
 }
 
+using Head = PackedLeafHead;
+
+/// Where the first packed leaf below a node is; 0 if none is.
+std::size_t first_packed(const std::string& nodes, std::uint32_t reference = 96) {
+  const std::size_t place = reference / 2 * 4;
+  if (reference % 2 == 1) return (word_at(nodes, place) & packed_leaf) != 0 ? place : 0;
+  std::size_t found = 0;
+  for (std::size_t lane = 0; found == 0 && lane < 16; ++lane) {
+    const std::uint32_t child = word_at(nodes, place + offsetof(QuantizedNode16, children) + 4 * lane);
+    if (child != 0) found = first_packed(nodes, child);
+  }
+  return found;
+}
+
+/// A compressed structure in a file, and a packed leaf of it.
+class SavedLeaf {
+ public:
+  explicit SavedLeaf(const std::string& layout) {
+    save(build(sphere(12), "median(leaf=8) > collapse(16) > " + layout), folder_.file("good"));
+    nodes_ = section_bytes(folder_.file("good"), 3);
+    leaf_ = first_packed(nodes_);
+    EXPECT_NE(leaf_, 0u);
+  }
+
+  /// Bits of the leaf are put over what is there.
+  struct Change {
+    std::uint32_t begin, bits, value;
+  };
+  bool refuses(std::initializer_list<Change> changes) const {
+    std::string bytes = nodes_;
+    for (const Change& change : changes) {
+      for (std::uint32_t i = 0; i < change.bits; ++i) {
+        char& byte = bytes[leaf_ + (change.begin + i) / 8];
+        const int bit = 1 << (change.begin + i) % 8;
+        byte = static_cast<char>((change.value >> i & 1) != 0 ? byte | bit : byte & ~bit);
+      }
+    }
+    rewrite(folder_.file("good"), folder_.file("bad"), 3, bytes, 1);
+    return !refusal(folder_.file("bad")).empty();
+  }
+  bool refuses_forms(std::uint32_t forms) const {
+    const std::string facts = section_bytes(folder_.file("good"), 2);
+    rewrite(folder_.file("good"), folder_.file("bad"), 2, with_word(facts, offsetof(SavedFacts, leaf_forms), forms), 1);
+    return !refusal(folder_.file("bad")).empty();
+  }
+
+  Head head() const { return Head(word_at(nodes_, leaf_)); }
+  /// Where an axis of the corners begins, in bits.
+  std::uint32_t begin_of(std::size_t axis) const {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(nodes_.data() + leaf_);
+    std::uint32_t begin = head().begin_of_corners();
+    for (std::size_t i = 0; i < axis; ++i) begin += head().bytes_of_axis(head().codes[i], bytes + begin);
+    return 8 * begin;
+  }
+  std::uint32_t forms() const {
+    return word_at(section_bytes(folder_.file("good"), 2), offsetof(SavedFacts, leaf_forms));
+  }
+
+ private:
+  Folder folder_;
+  std::string nodes_;
+  std::size_t leaf_ = 0;
+};
+
+constexpr std::uint32_t begin_of_number = 32, begin_of_more = 31;
+/// Without numbers of triangles but the first.
+constexpr SavedLeaf::Change no_width{Head::begin_of_width, 4, 0}, no_numbers{Head::begin_of_size, 5, 0};
+constexpr SavedLeaf::Change all_follow{Head::begin_of_joined, 8, 0xfe};
+
 TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
+  const SavedLeaf leaf("compressed(16, bytes=64)");
+  ASSERT_EQ(leaf.forms(), 0u);
+  ASSERT_LT(leaf.head().corners, 16u);
+  ASSERT_NE(leaf.head().number_bits, 0u);
+  EXPECT_FALSE(leaf.refuses({}));
+  EXPECT_TRUE(leaf.refuses({{Head::begin_of_codes, 5, Head::code_of_words}})) << "longer than it is";
+  EXPECT_TRUE(leaf.refuses({{begin_of_more, 1, 1}})) << "more parts than there are";
+  EXPECT_TRUE(leaf.refuses({{begin_of_number, 32, 0x3fffffff}})) << "a triangle that the mesh does not have";
+  EXPECT_TRUE(leaf.refuses({{Head::begin_of_indices, 4, 15}})) << "a corner that the leaf does not have";
+  EXPECT_FALSE(leaf.refuses({no_width, no_numbers, all_follow}));
+  EXPECT_TRUE(leaf.refuses({no_width, no_numbers, {Head::begin_of_joined, 8, 0xff}})) << "no first triangle";
+  EXPECT_TRUE(leaf.refuses({{Head::begin_of_width, 4, 9}, no_numbers, all_follow})) << "36 bits per number";
+  EXPECT_TRUE(leaf.refuses({all_follow})) << "another count of numbers than there is room for";
+  const SavedLeaf::Change points{Head::begin_of_indices, 96, 0};
+  EXPECT_FALSE(leaf.refuses({no_width, no_numbers, all_follow, points}));
+  EXPECT_TRUE(leaf.refuses({no_width, no_numbers, all_follow, points, {begin_of_number, 32, 0xffffffff}}))
+      << "a number that says that more follow";
+}
+
+TEST(DamagedStructure, TightLeavesAreRefusedWhereNoneAreSaidToBe) {
+  const SavedLeaf plain("compressed(16, bytes=64)");
+  const std::uint32_t less = Head::bits_of_code[plain.head().codes[0]] - Head::bits_of_code[Head::first_repeated];
+  ASSERT_LE(less, 3u) << "it takes no more room than there is";
+  EXPECT_TRUE(plain.refuses({{Head::begin_of_codes, 5, Head::first_repeated}}));
+  EXPECT_TRUE(plain.refuses({{Head::begin_of_pairs, 2, 2}}));
+  const SavedLeaf tight("compressed(16)");
+  ASSERT_NE(tight.forms() & tight_leaves, 0u);
+  EXPECT_TRUE(tight.refuses_forms(tight.forms() & ~tight_leaves));
+}
+
+TEST(DamagedStructure, FormsOfLeavesThatMeanNothingOrAreNotSaidAreRefused) {
+  const SavedLeaf leaf("compressed(16, bytes=18)");
+  ASSERT_EQ(leaf.forms(), tight_leaves | named_leaves);
+  EXPECT_FALSE(leaf.refuses_forms(leaf.forms()));
+  EXPECT_TRUE(leaf.refuses_forms(tight_leaves));
+  EXPECT_TRUE(leaf.refuses_forms(leaf.forms() | 4));
   const Folder folder;
-  save(build(sphere(12), "median(leaf=8) > collapse(16) > compressed(16)"), folder.file("good"));
-  const std::string nodes = section_bytes(folder.file("good"), 3);
-  std::uint32_t first = 96;  // the root
-  while (first % 2 == 0) first = word_at(nodes, first / 2 * 4 + offsetof(QuantizedNode16, children));
-  const std::size_t leaf = first / 2 * 4;
-  const std::uint32_t head = word_at(nodes, leaf);
-  ASSERT_NE(head & packed_leaf, 0u);
-  ASSERT_LT(PackedLeafHead(head).corners, 16u);
-  const auto is_refused = [&](const std::string& bytes) {
-    rewrite(folder.file("good"), folder.file("bad"), 3, bytes, 1);
-    return !refusal(folder.file("bad")).empty();
-  };
-  const auto refused = [&](std::size_t at, std::uint32_t word) { return is_refused(with_word(nodes, at, word)); };
-  EXPECT_FALSE(refused(leaf, head));
-  EXPECT_TRUE(refused(leaf, head | 31u << PackedLeafHead::begin_of_codes)) << "longer than it is";
-  EXPECT_TRUE(refused(leaf, head | PackedLeafHead::zeros)) << "a bit that means nothing";
-  EXPECT_TRUE(refused(leaf, head | packed_more)) << "more parts than there are";
-  EXPECT_TRUE(refused(leaf + 4, 0x3fffffff)) << "a triangle that the mesh does not have";
-  EXPECT_TRUE(refused(leaf + 8, word_at(nodes, leaf + 8) | 15u)) << "a corner that the leaf does not have";
-  const std::size_t joined = leaf + PackedLeafHead::begin_of_joined / 8;
-  const std::uint32_t numbers = 31u << PackedLeafHead::begin_of_width | 31u << PackedLeafHead::begin_of_size;
-  const auto all_joined = [&](std::uint32_t bits) {
-    return with_word(with_word(nodes, leaf, head & ~numbers), joined, (word_at(nodes, joined) & ~0xffu) | bits);
-  };
-  EXPECT_FALSE(is_refused(all_joined(0xfe)));
-  EXPECT_TRUE(is_refused(all_joined(0xff))) << "no first triangle";
-  std::string points = all_joined(0xfe);
-  for (std::size_t vertex = 0; vertex < 3; ++vertex) points = with_word(points, leaf + 8 + 4 * vertex, 0);
-  EXPECT_FALSE(is_refused(points));
-  EXPECT_TRUE(is_refused(with_word(points, leaf + 4, 0xffffffff))) << "a number that says that more follow";
-  EXPECT_TRUE(refused(joined, word_at(nodes, joined) ^ 4u)) << "another count of numbers than there is room for";
-  // It takes no more room than there is.
-  const PackedLeafHead good(head);
-  ASSERT_GT(good.bits[0] + good.bits[1] + good.bits[2], 27u);
-  const std::uint32_t left = std::min(good.bits[0] + good.bits[1] + good.bits[2] - 27, 25u);
-  const std::uint32_t codes = 26u | left << 10;
-  const std::uint32_t wide =
-      (head & ~(0x7fffu << PackedLeafHead::begin_of_codes)) | codes << PackedLeafHead::begin_of_codes;
-  ASSERT_LE(PackedLeafHead(wide).words(), good.words());
-  EXPECT_TRUE(refused(leaf, wide)) << "26 bits per difference";
+  save(build(sphere(8), "binned > wide(16)"), folder.file("good"));
+  const std::string facts = with_word(section_bytes(folder.file("good"), 2), offsetof(SavedFacts, leaf_forms), 1);
+  rewrite(folder.file("good"), folder.file("bad"), 2, facts, 1);
+  EXPECT_NE(refusal(folder.file("bad")), "");
+}
+
+TEST(DamagedStructure, TightLeavesThatRepeatCornersThatTheyDoNotHaveAreRefused) {
+  const SavedLeaf leaf("compressed(16, bytes=18)");
+  const Head head = leaf.head();
+  const auto axis = static_cast<std::size_t>(std::ranges::find_if(head.codes, Head::repeats) - head.codes);
+  ASSERT_LT(axis, 3u);
+  ASSERT_LT(head.corners, 16u);
+  const std::uint32_t begin = leaf.begin_of(axis);
+  EXPECT_FALSE(leaf.refuses({{begin, 1, 1}}));
+  EXPECT_TRUE(leaf.refuses({{begin + head.corners, 1, 1}}));
 }
 
 TEST(DamagedStructure, SectionsOfAnotherSizeAreRefused) {

@@ -109,10 +109,30 @@ TEST(Quantize, Nodes_KeepTheGridsMadeForThem) {
 INSTANTIATE_TEST_SUITE_P(Bits, QuantizeTo, testing::Values(1, 2, 8, 16),
                          [](const auto& test) { return std::to_string(test.param); });
 
+/// What leaves of a compressed tree there are, by the bytes that it may take: packed ones, tight ones, or names, too.
+enum class Leaves { by_default, packed, tight, some_named };
+
+template <class Node>
+std::size_t least_bytes_without_names(const Tree& tree, const Mesh& mesh) {
+  std::size_t bytes = 1;
+  while (encode_quantized<Node>(tree, mesh, bytes).view.positions != nullptr) ++bytes;
+  return bytes;
+}
+
+template <class Node>
+std::size_t bytes_for(Leaves leaves, const Tree& tree, const Mesh& mesh) {
+  if (leaves == Leaves::by_default) return bytes_per_triangle;
+  if (leaves == Leaves::packed) return 64;
+  const std::size_t least = least_bytes_without_names<Node>(tree, mesh);
+  EXPECT_TRUE(encode_quantized<Node>(tree, mesh, least).view.tight);
+  return leaves == Leaves::tight ? least : least - 1;
+}
+
 struct CompressedCase {
   const char* scene;
   std::uint32_t width, leaf;
   std::int64_t target;
+  Leaves leaves = Leaves::by_default;
 };
 
 class CompressedOf : public testing::TestWithParam<CompressedCase> {};
@@ -121,8 +141,11 @@ TEST_P(CompressedOf, Answers_HaveTheBitsOfBruteForce) {
   const CompressedCase& c = GetParam();
   const OnlyTarget only(c.target);
   const Scene scene = test_scene(c.scene);
-  const auto layout =
-      encode_compressed(c.width, test_tree(scene.meshes.front(), c.width, c.leaf), scene.meshes.front());
+  const Mesh& mesh = scene.meshes.front();
+  const Tree tree = test_tree(mesh, c.width, c.leaf);
+  const std::size_t bytes =
+      c.width == 8 ? bytes_for<QuantizedNode8>(c.leaves, tree, mesh) : bytes_for<QuantizedNode16>(c.leaves, tree, mesh);
+  const auto layout = encode_compressed(c.width, tree, mesh, bytes);
   const std::vector<Ray> rays = test_rays(scene);
   std::vector<Hit> expected(rays.size()), single(rays.size()), batch(rays.size()), counted(rays.size());
   BruteForce(scene).closest_hits(rays, expected);
@@ -151,15 +174,24 @@ std::vector<CompressedCase> compressed_cases() {
     }
   }
   for (const std::int64_t target : targets) {
-    for (const std::uint32_t width : {8u, 16u}) out.push_back({"random", width, 6, target});
+    for (const std::uint32_t width : {8u, 16u}) {
+      for (const Leaves leaves : {Leaves::packed, Leaves::tight, Leaves::some_named}) {
+        out.push_back({"random", width, 6, target, leaves});
+        out.push_back({"grid", width, 6, target, leaves});
+      }
+    }
   }
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CompressedOf, testing::ValuesIn(compressed_cases()), [](const auto& test) {
-  return std::string(test.param.scene) + "_width" + std::to_string(test.param.width) + "_leaf" +
-         std::to_string(test.param.leaf) + "_" + hwy::TargetName(test.param.target);
-});
+std::string name_of(const CompressedCase& c) {
+  constexpr const char* forms[] = {"", "_packed", "_tight", "_named"};
+  return std::string(c.scene) + "_width" + std::to_string(c.width) + "_leaf" + std::to_string(c.leaf) + "_" +
+         hwy::TargetName(c.target) + forms[static_cast<std::size_t>(c.leaves)];
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CompressedOf, testing::ValuesIn(compressed_cases()),
+                         [](const auto& test) { return name_of(test.param); });
 
 TEST(Compressed, Bytes_AreAtMostTwentyPerTriangle) {
   const Scene scene = test_scene("grid");
@@ -181,16 +213,19 @@ Mesh separate_triangles(std::span<const Vec3> corners) {
 std::array<std::uint32_t, 3> bits_of(const Vec3& p) { return std::bit_cast<std::array<std::uint32_t, 3>>(p); }
 
 /// Every part of a packed leaf as the kernels of one instruction set unpack it. Its triangles come in ascending order.
-void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names) {
+void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names, bool tight) {
   std::size_t done = 0;
   std::ranges::sort(names);
-  for_each_packed(names, mesh, [&](const OwnCorners& part, bool more) {
+  for_each_packed(names, mesh, tight, [&](const OwnCorners& part, bool more) {
     std::vector<std::uint32_t> words(part.words() + words_at_once);
     part.pack(words.data(), more);
     LeafBlock<8> block;
-    HWY_NAMESPACE::unpack_leaf(words.data(), block);
+    if (tight)
+      HWY_NAMESPACE::unpack_tight_leaf(words.data(), block);
+    else
+      HWY_NAMESPACE::unpack_leaf(words.data(), block);
     const PackedLeafHead head(words[0]);
-    ASSERT_EQ(head.words(), part.words());
+    ASSERT_EQ(words_of_packed(words.data()), part.words());
     ASSERT_LE(head.corners, most_packed_corners);
     ASSERT_EQ((block.primitives[0] & more_blocks) != 0, more);
     for (std::size_t lane = 0; lane < 8; ++lane) {
@@ -200,16 +235,29 @@ void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names) {
       if (used) {
         ASSERT_EQ(HWY_NAMESPACE::number_of_packed(words.data(), static_cast<std::uint32_t>(lane)), name);
       }
+      const auto corner = [&](std::size_t vertex) {
+        const auto& of_axes = block.vertices[vertex];
+        return bits_of({of_axes[0][lane], of_axes[1][lane], of_axes[2][lane]});
+      };
       for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        const Vec3 got{block.vertices[vertex][0][lane], block.vertices[vertex][1][lane],
-                       block.vertices[vertex][2][lane]};
-        const Vec3& expected = mesh.positions[mesh.triangles[name][used ? vertex : 0]];
-        ASSERT_EQ(bits_of(got), bits_of(expected)) << "lane " << lane << " vertex " << vertex;
+        // Those that are missing are points.
+        const auto expected = used ? bits_of(mesh.positions[mesh.triangles[name][vertex]]) : corner(0);
+        ASSERT_EQ(corner(vertex), expected) << "lane " << lane << " vertex " << vertex;
       }
     }
     done += part.triangles();
   });
   ASSERT_EQ(done, names.size());
+}
+
+void expect_unpacks(const Mesh& mesh, const std::vector<std::uint32_t>& names) {
+  for (const bool tight : {false, true}) ASSERT_NO_FATAL_FAILURE(expect_unpacks(mesh, names, tight)) << tight;
+}
+
+std::size_t words_of(const Mesh& mesh, std::span<const std::uint32_t> names, bool tight) {
+  std::size_t words = 0;
+  for_each_packed(names, mesh, tight, [&](const OwnCorners& part, bool) { words += part.words(); });
+  return words;
 }
 
 TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
@@ -224,6 +272,7 @@ TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
                                                                       : center + random.point(-size, size);
       if (n % 5 == 0) corners[i].y = -0.0f;
       if (n % 7 == 0) corners[i].x *= i % 2 == 0 ? 1e-30f : -1;
+      if (n % 4 == 1) corners[i].z = center.z * std::floor(random.between(0, 2.99f));  // one value, or two and zero
     }
     const Mesh mesh = separate_triangles(corners);
     std::vector<std::uint32_t> names;
@@ -234,13 +283,45 @@ TEST(PackedLeaf, AnyTriangles_ComeBackToTheBit) {
   }
 }
 
+TEST(PackedLeaf, Tight_KeepsValuesThatRepeatOnce) {
+  std::vector<std::uint32_t> names = {0, 1, 2, 3};
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
+    for (const float least : {0.0f, -0.0f, 0.3f}) {
+      std::vector<Vec3> corners(12);
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = {std::sqrt(static_cast<float>(i)), std::cbrt(static_cast<float>(i)),
+                      1.0f / static_cast<float>(i + 1)};
+        corners[i][axis] = i % 3 == 0 ? least : i % 3 == 1 ? 1e-7f : 0.7f;
+      }
+      const Mesh mesh = separate_triangles(corners);
+      expect_unpacks(mesh, names);
+      // Nine values of 22 bits or more are not kept, for which there are two bytes; zero is none to keep.
+      EXPECT_LE(words_of(mesh, names, true) + 5, words_of(mesh, names, false)) << axis << " " << least;
+    }
+  }
+}
+
+TEST(PackedLeaf, Tight_HasIndicesOfThePairsThatAreThere) {
+  const std::vector<Vec3> corners = {{1, 2, 3}, {2, 3, 1}, {3, 1, 2}};
+  const Mesh mesh = separate_triangles(corners);
+  for (std::uint32_t count = 1; count <= 8; ++count) {
+    const std::vector<std::uint32_t> names(count, 0);
+    expect_unpacks(mesh, names);
+    for_each_packed(names, mesh, true, [&](const OwnCorners& part, bool) {
+      std::vector<std::uint32_t> words(part.words());
+      part.pack(words.data(), false);
+      EXPECT_EQ(PackedLeafHead(words[0]).pairs, (count + 1) / 2);
+    });
+  }
+}
+
 TEST(PackedLeaf, OfSeventeenCornersAndMore_HasParts) {
   std::vector<Vec3> corners(24);
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = {static_cast<float>(i), 1, 2};
   const Mesh mesh = separate_triangles(corners);
   const std::vector<std::uint32_t> names = {0, 1, 2, 3, 4, 5, 6, 7};
   std::vector<std::size_t> parts;
-  for_each_packed(names, mesh, [&](const OwnCorners& part, bool) { parts.push_back(part.triangles()); });
+  for_each_packed(names, mesh, false, [&](const OwnCorners& part, bool) { parts.push_back(part.triangles()); });
   EXPECT_EQ(parts, (std::vector<std::size_t>{5, 3}));
   expect_unpacks(mesh, names);
 }
@@ -249,7 +330,7 @@ TEST(PackedLeaf, OfOneTriangleManyTimes_HasItsCornersOnce) {
   const std::vector<Vec3> corners = {{1, 2, 3}, {1, 2, 3}, {4, 5, 6}};  // a line
   const Mesh mesh = separate_triangles(corners);
   const std::vector<std::uint32_t> names(8, 0);
-  for_each_packed(names, mesh, [&](const OwnCorners& part, bool) {
+  for_each_packed(names, mesh, false, [&](const OwnCorners& part, bool) {
     std::vector<std::uint32_t> words(part.words());
     part.pack(words.data(), false);
     EXPECT_EQ(PackedLeafHead(words[0]).corners, 2u);
@@ -300,9 +381,7 @@ void add_worths(const Tree& tree, std::uint32_t of_tree, const QuantizedArena& a
       add_worths(tree, i, arena, node.children[c], mesh, out);
       continue;
     }
-    std::size_t size = 0;
-    for_each_packed(std::span(tree.references).subspan(child.first, child.count), mesh,
-                    [&](const OwnCorners& part, bool) { size += part.words(); });
+    const std::size_t size = words_of(mesh, std::span(tree.references).subspan(child.first, child.count), true);
     const bool packed = (words[node.children[c] >> 1] & packed_leaf) != 0;
     (packed ? out.packed : out.named).push_back(half_area(child.bounds) / static_cast<float>(size - child.count));
   }

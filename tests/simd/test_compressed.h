@@ -10,11 +10,12 @@
 namespace boxwood {
 
 /// `width`: 8 or 16. The mesh must outlive the layout.
-inline std::shared_ptr<const Layout> encode_compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh) {
+inline std::shared_ptr<const Layout> encode_compressed(std::uint32_t width, const Tree& tree, const Mesh& mesh,
+                                                       std::size_t bytes = bytes_per_triangle) {
   using Compressed = SimdLayout<QuantizedArena>;
   if (width == 8)
-    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh), compressed_kernels<8>());
-  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh), compressed_kernels<16>());
+    return std::make_shared<Compressed>(encode_quantized<QuantizedNode8>(tree, mesh, bytes), compressed_kernels<8>());
+  return std::make_shared<Compressed>(encode_quantized<QuantizedNode16>(tree, mesh, bytes), compressed_kernels<16>());
 }
 
 }  // namespace boxwood

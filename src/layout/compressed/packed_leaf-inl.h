@@ -63,10 +63,35 @@ HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint8_t* stream, std::uint32_t
   return unpack_at(d, stream + (begin >> 3), place, mask_of_bits(d, bits));
 }
 
+/// Which corners are the vertices of eight triangles: for each vertex a word of 4 bits per triangle, as they lie in
+/// leaves that are not tight.
+HWY_INLINE const std::uint8_t* indices_of(const std::uint32_t* words) {
+  return reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_indices / 8;
+}
+
+/// The same of a tight leaf, which has only those of the triangles that are there.
+HWY_INLINE void spread_indices(const std::uint32_t* words, std::uint8_t* out) {
+  const std::uint32_t pairs = PackedLeafHead(words[0]).pairs;
+  const std::uint32_t there = 0xffffffffu >> (32 - 8 * pairs);
+  for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
+    std::uint32_t of_vertex;
+    std::memcpy(&of_vertex, indices_of(words) + vertex * pairs, sizeof of_vertex);
+    of_vertex &= there;
+    std::memcpy(out + 4 * vertex, &of_vertex, sizeof of_vertex);
+  }
+}
+
+/// A word of `indices`.
+HWY_INLINE std::uint32_t indices_of_vertex(const std::uint8_t* indices, int vertex) {
+  std::uint32_t out;
+  std::memcpy(&out, indices + 4 * vertex, sizeof out);
+  return out;
+}
+
 /// Which corner is vertex `vertex` of each triangle from `begin` on.
 template <class D>
-HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint32_t* words, int vertex, std::uint32_t begin) {
-  const auto packed = hn::Set(d, words[PackedLeafHead::begin_of_indices / 32 + vertex] >> 4 * begin);
+HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint8_t* indices, int vertex, std::uint32_t begin) {
+  const auto packed = hn::Set(d, indices_of_vertex(indices, vertex) >> 4 * begin);
   return hn::And(hn::Shr(packed, hn::ShiftLeft<2>(hn::Iota(d, 0))), hn::Set(d, 15));
 }
 
@@ -91,7 +116,7 @@ struct TakenBitsTable {
 
   constexpr TakenBitsTable() {
     for (std::uint32_t code = 0; code < 32; ++code) {
-      const std::uint32_t bits = PackedLeafHead::bits_of_code(code);
+      const std::uint32_t bits = PackedLeafHead::bits_of_code[code];
       for (std::uint32_t i = 0; i < 64; ++i) {
         of_code[code].bytes[i] = static_cast<std::uint8_t>((i / 4 * bits / 8 + i % 4) % 64);
       }
@@ -104,14 +129,13 @@ inline constexpr TakenBitsTable taken_bits;
 
 #endif
 
-/// The corners of a packed leaf, an axis after the other.
-template <class D>
+/// The corners of a packed leaf, an axis after the other. Tight: values of an axis may repeat.
+template <class D, bool Tight>
 class PackedCorners {
  public:
   HWY_INLINE explicit PackedCorners(const std::uint32_t* words)
       : words_(words),
-        stream_(reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_numbers / 8 +
-                PackedLeafHead(words[0]).bytes_of_numbers),
+        stream_(reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead(words[0]).begin_of_corners()),
         codes_(words[0] >> PackedLeafHead::begin_of_codes),
         corners_(PackedLeafHead(words[0]).corners) {}
 
@@ -119,23 +143,63 @@ class PackedCorners {
   /// corner hold anything.
   template <class Use>
   HWY_INLINE void next(const Use& use) {
-    const Words d;
-    const std::uint32_t code = codes_ & 31, bits = PackedLeafHead::bits_of_code(code);
-    const auto base = hn::Set(d, base_of(words_, axis_));
-    for (std::uint32_t i = 0; i < corners_; i += lanes_of<D>) {
-      use(i, hn::BitCast(D(), hn::Add(differences(i, code, bits), base)));
-      if constexpr (lanes_of<D> >= most_packed_corners) break;
+    const std::uint32_t code = codes_ & 31, bits = PackedLeafHead::bits_of_code[code];
+    if (Tight && PackedLeafHead::repeats(code)) {
+      const std::uint32_t changes = PackedLeafHead::changes_at(stream_);
+      stream_ += PackedLeafHead::bytes_of_changes;
+      next_repeated(changes, code, use);
+      stream_ += PackedLeafHead::bytes_of(static_cast<std::uint32_t>(std::popcount(changes)), bits);
+    } else {
+      for_each_register(corners_, code, use);
+      stream_ += PackedLeafHead::bytes_of(corners_, bits);
     }
     codes_ >>= 5;
     ++axis_;
-    stream_ += PackedLeafHead::bytes_of(corners_, bits);
   }
 
  private:
   using Words = hn::RebindToUnsigned<D>;
 
-  HWY_INLINE hn::Vec<Words> differences(std::uint32_t i, [[maybe_unused]] std::uint32_t code,
-                                        std::uint32_t bits) const {
+  /// Of the first `count` values that follow.
+  template <class Use>
+  HWY_INLINE void for_each_register(std::uint32_t count, std::uint32_t code, const Use& use) const {
+    const auto base = hn::Set(Words(), base_of(words_, axis_));
+    for (std::uint32_t i = 0; i < count; i += lanes_of<D>) {
+      use(i, hn::BitCast(D(), hn::Add(differences(i, code), base)));
+      if constexpr (lanes_of<D> >= most_packed_corners) break;
+    }
+  }
+
+  /// A corner has the value of the last change up to it, and before the first none: zero.
+  template <class Use>
+  HWY_INLINE void next_repeated(std::uint32_t changes, std::uint32_t code, const Use& use) const {
+    const Words d;
+    const auto changes_up_to = [&](std::uint32_t i) HWY_ATTR {
+      const auto lane = hn::Add(hn::Iota(d, 0), hn::Set(d, i));
+      const auto others = hn::Shl(hn::Set(d, ~1u), lane);
+      return hn::PopulationCount(hn::AndNot(others, hn::Set(d, changes)));
+    };
+    if constexpr (lanes_of<D> >= most_packed_corners) {
+      const auto count = changes_up_to(0);
+      for_each_register(1, code, [&](std::uint32_t, hn::Vec<D> values) HWY_ATTR {
+        const auto last = hn::And(hn::Sub(count, hn::Set(d, 1)), hn::Set(d, most_packed_corners - 1));
+        const auto of_corners = hn::TableLookupLanes(hn::BitCast(d, values), hn::IndicesFromVec(d, last));
+        use(0, hn::BitCast(D(), hn::IfThenElseZero(hn::Ne(count, hn::Zero(d)), of_corners)));
+      });
+    } else {
+      alignas(64) float values[lanes_of<D> + most_packed_corners];
+      values[lanes_of<D> - 1] = 0;
+      for_each_register(most_packed_corners, code, [&](std::uint32_t i, hn::Vec<D> some) HWY_ATTR {
+        hn::Store(some, D(), values + lanes_of<D> + i);
+      });
+      for (std::uint32_t i = 0; i < corners_; i += lanes_of<D>) {
+        const auto count = hn::BitCast(hn::RebindToSigned<D>(), changes_up_to(i));
+        use(i, hn::GatherIndex(D(), values + lanes_of<D> - 1, count));
+      }
+    }
+  }
+
+  HWY_INLINE hn::Vec<Words> differences(std::uint32_t i, std::uint32_t code) const {
     const Words d;
 #if HWY_TARGET <= HWY_AVX3_DL
     if constexpr (lanes_of<D> == 16) {
@@ -146,6 +210,7 @@ class PackedCorners {
       return hn::And(hn::Shr(words, hn::Load(d, taken.shifts)), hn::Set(d, taken_bits.masks[code]));
     }
 #endif
+    const std::uint32_t bits = PackedLeafHead::bits_of_code[code];
     return unpack_bits(d, stream_, i * bits, bits);
   }
 
@@ -158,14 +223,15 @@ class PackedCorners {
 #if HWY_TARGET <= HWY_AVX3
 
 /// All corners lie in one register per axis.
-HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
+template <bool Tight>
+HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* indices, LeafBlock<8>& out) {
   using D = hn::FixedTag<float, 16>;
   const D d;
   const hn::FixedTag<std::uint32_t, 16> du;
   const hn::FixedTag<float, 8> half;
-  const hn::Vec<decltype(du)> index[3] = {unpack_indices(du, words, 0, 0), unpack_indices(du, words, 1, 0),
-                                          unpack_indices(du, words, 2, 0)};
-  PackedCorners<D> corners(words);
+  const hn::Vec<decltype(du)> index[3] = {unpack_indices(du, indices, 0, 0), unpack_indices(du, indices, 1, 0),
+                                          unpack_indices(du, indices, 2, 0)};
+  PackedCorners<D, Tight> corners(words);
   for (int axis = 0; axis < 3; ++axis) {
     corners.next([&](std::uint32_t, hn::Vec<D> coordinates) HWY_ATTR {
       for (int vertex = 0; vertex < 3; ++vertex) {
@@ -178,19 +244,20 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
 
 #else
 
-HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
+template <bool Tight>
+HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* indices, LeafBlock<8>& out) {
   using D = hn::CappedTag<float, 8>;
   const D d;
   const hn::RebindToUnsigned<D> du;
   const hn::RebindToSigned<D> di;
   alignas(64) float corners[3][most_packed_corners];
-  PackedCorners<D> packed(words);
+  PackedCorners<D, Tight> packed(words);
   for (auto& of_axis : corners) {
     packed.next([&](std::uint32_t i, hn::Vec<D> coordinates) HWY_ATTR { hn::Store(coordinates, d, of_axis + i); });
   }
   for (int vertex = 0; vertex < 3; ++vertex) {
     for (std::uint32_t i = 0; i < 8; i += lanes_of<D>) {
-      const auto index = hn::BitCast(di, unpack_indices(du, words, vertex, i));
+      const auto index = hn::BitCast(di, unpack_indices(du, indices, vertex, i));
       for (int axis = 0; axis < 3; ++axis) {
         hn::Store(hn::GatherIndex(d, corners[axis], index), d, out.vertices[vertex][axis] + i);
       }
@@ -204,13 +271,14 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, LeafBlock<8>& out) {
 HWY_INLINE std::uint32_t number_of_packed(const std::uint32_t* words, std::uint32_t triangle) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
   const NumberRuns runs(bytes[PackedLeafHead::begin_of_joined / 8], triangle);
-  const auto bits = static_cast<std::int32_t>(PackedLeafHead(words[0]).bits[3]);
+  const PackedLeafHead head(words[0]);
+  const auto bits = static_cast<std::int32_t>(head.number_bits);
   // Of the first run nothing is kept: what is before the others is read, and none of it taken. No branch, since runs
   // come as they like.
   const auto run = static_cast<std::int32_t>(runs.count()) - 1;
   const std::int32_t begin = (run - 1) * bits;
   std::uint64_t two;
-  std::memcpy(&two, bytes + PackedLeafHead::begin_of_numbers / 8 + (begin >> 3), sizeof two);
+  std::memcpy(&two, bytes + head.begin_of_numbers() + (begin >> 3), sizeof two);
   const std::uint64_t mask = (std::uint64_t{1} << (bits & -static_cast<std::int32_t>(run != 0))) - 1;
   return words[1] + static_cast<std::uint32_t>(two >> (begin & 7) & mask) + triangle - runs.last();
 }
@@ -235,14 +303,15 @@ inline constexpr RunsTable runs_table;
 HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
   const hn::CappedTag<std::uint32_t, most_packed_triangles> d;
   if constexpr (lanes_of<decltype(d)> == most_packed_triangles) {
-    const std::uint32_t bits = PackedLeafHead(words[0]).bits[3];
+    const PackedLeafHead head(words[0]);
+    const std::uint32_t bits = head.number_bits;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
     const auto* entries = runs_table.of_joined[bytes[PackedLeafHead::begin_of_joined / 8]];
     const hn::Rebind<std::uint8_t, decltype(d)> narrow;
     const auto entry = hn::PromoteTo(d, hn::LoadU(narrow, entries));
     const auto run = hn::And(entry, hn::Set(d, 15));
     const auto place = hn::Mul(hn::Sub(hn::Max(run, hn::Set(d, 1)), hn::Set(d, 1)), hn::Set(d, bits));
-    const auto kept = unpack_at(d, bytes + PackedLeafHead::begin_of_numbers / 8, place, mask_of_bits(d, bits));
+    const auto kept = unpack_at(d, bytes + head.begin_of_numbers(), place, mask_of_bits(d, bits));
     const auto first = hn::Add(hn::Set(d, words[1]), hn::IfThenZeroElse(hn::Eq(run, hn::Zero(d)), kept));
     hn::Store(hn::Add(first, hn::ShiftRight<4>(entry)), d, out);
   } else {
@@ -252,9 +321,18 @@ HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
 
 /// A packed leaf, or a part of one.
 HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
-  unpack_corners(words, out);
+  unpack_corners<false>(words, indices_of(words), out);
   unpack_numbers(words, out.primitives);
   static_assert(packed_more == more_blocks);
+  out.primitives[0] |= words[0] & packed_more;
+}
+
+/// The same of a tight one.
+HWY_NOINLINE inline void unpack_tight_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
+  std::uint8_t indices[12];
+  spread_indices(words, indices);
+  unpack_corners<true>(words, indices, out);
+  unpack_numbers(words, out.primitives);
   out.primitives[0] |= words[0] & packed_more;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 namespace boxwood {
 namespace {
@@ -29,6 +31,15 @@ std::array<std::uint32_t, 3> bits_of_position(const Vec3& p) {
   return {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z)};
 }
 
+/// Of so many bits per value, or, where codes say more than bits, of the next that they say.
+std::uint32_t code_of(std::uint32_t bits, bool repeats) {
+  using Head = PackedLeafHead;
+  if (!repeats) return bits <= Head::most_bits ? bits : Head::code_of_words;
+  std::uint32_t code = Head::first_repeated;
+  while (Head::bits_of_code[code] < bits) ++code;
+  return code;
+}
+
 }  // namespace
 
 std::uint32_t PackedBits::take(std::uint32_t bits) {
@@ -40,12 +51,12 @@ std::uint32_t PackedBits::take(std::uint32_t bits) {
   return value;
 }
 
-OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh) {
+OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh, bool tight) : tight_(tight) {
   for (const std::uint32_t name : names.first(std::min<std::size_t>(names.size(), most_packed_triangles))) {
     if (!add(name, mesh)) break;
   }
-  measure_corners();
   measure_numbers();
+  measure_corners();
 }
 
 bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
@@ -67,34 +78,91 @@ bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
   return true;
 }
 
-void OwnCorners::measure_corners() {
-  // The last four indices.
-  std::uint32_t before = 0;
-  for (std::size_t i = 4; i < most_packed_triangles; ++i) before |= std::uint32_t{index_[2][i]} << 4 * (i - 4);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto values = std::span(corner_[axis]).first(corners_);
-    const std::uint32_t upper = (std::ranges::min(values) - before) & 0xffff0000;
-    base_[axis] = upper | before;
-    before = upper >> 16;
-    std::uint32_t bits = 0;
-    for (const std::uint32_t value : values) bits |= value - base_[axis];
-    const auto width = static_cast<std::uint32_t>(std::bit_width(bits));
-    code_[axis] = width <= PackedLeafHead::most_bits ? width : PackedLeafHead::code_of_words;
-  }
-}
-
 void OwnCorners::measure_numbers() {
   for (std::uint32_t i = 1; i < most_packed_triangles; ++i) {
     if (i >= triangles_ || names_[i] == names_[i - 1] + 1) joined_ |= 1u << i;
   }
-  number_bits_ = static_cast<std::uint32_t>(std::bit_width(names_[triangles_ - 1] - names_[0]));
+  number_bits_ = (static_cast<std::uint32_t>(std::bit_width(names_[triangles_ - 1] - names_[0])) + 3) / 4 * 4;
+}
+
+/// With the values of one axis, or none, kept once.
+OwnCorners::Axes OwnCorners::measure_axes(std::size_t repeated) const {
+  Axes out;
+  std::uint32_t before = names_[0] >> 16;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<std::uint32_t, most_packed_corners> sorted = corner_[axis];
+    auto values = std::span(sorted).first(corners_);
+    const bool repeats = axis == repeated;
+    if (repeats) {
+      std::ranges::sort(values);
+      values = values.first(corners_ - std::ranges::unique(values).size());
+      if (values.front() == 0) values = values.subspan(1);
+    }
+    const std::uint32_t upper = values.empty() ? 0 : (std::ranges::min(values) - before) & 0xffff0000;
+    const std::uint32_t base = upper | before;
+    before = upper >> 16;
+    std::uint32_t bits = 0;
+    for (const std::uint32_t value : values) bits |= value - base;
+    const std::uint32_t code = code_of(static_cast<std::uint32_t>(std::bit_width(bits)), repeats);
+    out[axis] = {
+        base, code,
+        (repeats ? PackedLeafHead::bytes_of_changes : 0) +
+            PackedLeafHead::bytes_of(static_cast<std::uint32_t>(values.size()), PackedLeafHead::bits_of_code[code])};
+  }
+  return out;
+}
+
+void OwnCorners::measure_corners() {
+  axes_ = measure_axes(no_axis);
+  std::size_t best = no_axis, least = words();
+  for (std::size_t axis = 0; tight_ && axis < 3; ++axis) {
+    const Axes plain = std::exchange(axes_, measure_axes(axis));
+    if (words() < least) {
+      best = axis;
+      least = words();
+    } else {
+      axes_ = plain;
+    }
+  }
+  if (best != no_axis) sort_corners(best);
+}
+
+void OwnCorners::sort_corners(std::size_t axis) {
+  std::array<std::uint8_t, most_packed_corners> order{}, place{};
+  std::iota(order.begin(), order.end(), std::uint8_t{0});
+  std::ranges::stable_sort(std::span(order).first(corners_), {}, [&](std::uint8_t i) { return corner_[axis][i]; });
+  const auto unsorted = corner_;
+  for (std::size_t i = 0; i < corners_; ++i) {
+    place[order[i]] = static_cast<std::uint8_t>(i);
+    for (std::size_t a = 0; a < 3; ++a) corner_[a][i] = unsorted[a][order[i]];
+  }
+  for (auto& of_vertex : index_) {
+    for (std::size_t i = 0; i < triangles_; ++i) of_vertex[i] = place[of_vertex[i]];
+  }
+}
+
+/// Which corners have another value than the one before.
+std::uint32_t OwnCorners::changes(std::size_t axis) const {
+  std::uint32_t out = 0, before = 0;
+  for (std::size_t i = 0; i < corners_; ++i) {
+    out |= (corner_[axis][i] != before ? 1u : 0u) << i;
+    before = corner_[axis][i];
+  }
+  return out;
 }
 
 std::uint32_t OwnCorners::head() const {
   using Head = PackedLeafHead;
-  std::uint32_t out = packed_leaf | (corners_ - 1) | number_bits_ << Head::begin_of_width;
-  for (std::size_t i = 0; i < 3; ++i) out |= code_[i] << (Head::begin_of_codes + 5 * i);
+  std::uint32_t out = packed_leaf | (corners_ - 1) | number_bits_ / 4 << Head::begin_of_width;
+  for (std::size_t i = 0; i < 3; ++i) out |= axes_[i].code << (Head::begin_of_codes + 5 * i);
+  out |= ((tight_ ? triangles_ : most_packed_triangles) - 1) / 2 << Head::begin_of_pairs;
   return out | Head::bytes_of(NumberRuns(joined_).count() - 1, number_bits_) << Head::begin_of_size;
+}
+
+std::size_t OwnCorners::words() const {
+  std::uint32_t bytes = PackedLeafHead(head()).begin_of_corners();
+  for (const Axis& axis : axes_) bytes += axis.bytes;
+  return (bytes + 3) / 4;
 }
 
 void OwnCorners::pack(std::uint32_t* out, bool more) const {
@@ -102,17 +170,22 @@ void OwnCorners::pack(std::uint32_t* out, bool more) const {
   BitWriter bits(out);
   bits.put(head() | (more ? packed_more : 0), 32);
   bits.put(names_[0], 32);
-  for (const auto& of_vertex : index_) {
-    for (const std::uint8_t index : of_vertex) bits.put(index, 4);
-  }
-  for (const std::uint32_t base : base_) bits.put(base >> 16, 16);
+  for (const Axis& axis : axes_) bits.put(axis.base >> 16, 16);
   bits.put(joined_, most_packed_triangles);
+  for (const auto& of_vertex : index_) {
+    for (std::size_t i = 0; i < std::size_t{2} * h.pairs; ++i) bits.put(of_vertex[i], 4);
+  }
   for (std::uint32_t i = 1; i < triangles_; ++i) {
     if ((joined_ >> i & 1) == 0) bits.put(names_[i] - names_[0], number_bits_);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Axis& axis = axes_[a];
     bits.to_next_byte();
-    for (std::size_t i = 0; i < corners_; ++i) bits.put(corner_[axis][i] - base_[axis], h.bits[axis]);
+    std::uint32_t kept = ~0u;
+    if (PackedLeafHead::repeats(axis.code)) bits.put(kept = changes(a), most_packed_corners);
+    for (std::size_t i = 0; i < corners_; ++i) {
+      if ((kept >> i & 1) != 0) bits.put(corner_[a][i] - axis.base, PackedLeafHead::bits_of_code[axis.code]);
+    }
   }
 }
 

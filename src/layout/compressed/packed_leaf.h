@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "boxwood/scene.h"
@@ -29,41 +30,74 @@ struct NumberRuns {
 /// A packed leaf, or a part of a larger one, is a run of 32-bit words, a stream of bits from the lowest of the first
 /// word on:
 ///     0  corners less one, 4 bits
-///     4  bits per difference in x, y, z, 5 each: up to 25, or 31 for 32 bits; of a number, 5
-///    24  bytes that hold numbers, 5 bits; a zero
+///     4  how x, y, z are kept, a code of 5 bits each
+///    19  half-bytes per number of a triangle, 4 bits
+///    23  pairs of triangles that have indices less one, 2 bits
+///    25  bytes that hold numbers, 5 bits
 ///    30  1 for `packed_leaf`; 1 when more triangles of the leaf follow, packed likewise
 ///    32  the number of the first triangle, which is the least
-///    64  which corner is the first of each triangle, eight times 4 bits; of missing ones 0; then the second, the third
-///   160  the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
-///   208  of each triangle a bit: whether its number is one more than that of the one before; of missing ones 1
-///   216  of each triangle where it is not, but the first, its number less the least one
+///    64  the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
+///   112  of eight triangles a bit each: whether its number is one more than that of the one before; of missing ones 1
+///   120  which corner is the first of each triangle, 4 bits each, a byte per pair; of a missing one 0; then the
+///   second,
+///        the third
+///        of each triangle whose number is not one more, but the first, its number less the least one
 ///        from the next whole byte on, of each corner x less its base, modulo 2^32; from the next the same of y; of z
-/// Filled up with zeros to whole words.
+/// Filled up with zeros to whole words. Codes up to 25 are the bits of a difference; 31 says 32.
+///
+/// A tight leaf takes less room and longer to unpack. It has indices only of pairs that are there, others have four.
+/// The values of one axis may be kept once where they repeat, as heights of blades of grass and coordinates of walls
+/// do. Then its code is from 26 on, corners are sorted by it, it begins with a bit for each of 16 corners, whether it
+/// has another value than the one before (the first: than zero), and only those other values follow.
 struct PackedLeafHead {
   std::uint32_t corners;
-  std::uint32_t bits[4];  // of x, y, z, numbers
+  std::uint32_t codes[3];
+  std::uint32_t number_bits, pairs;
   std::uint32_t bytes_of_numbers;
 
   explicit constexpr PackedLeafHead(std::uint32_t word)
       : corners((word & 15) + 1),
-        bits{bits_of_code(word >> begin_of_codes & 31), bits_of_code(word >> 9 & 31), bits_of_code(word >> 14 & 31),
-             word >> begin_of_width & 31},
+        codes{word >> begin_of_codes & 31, word >> (begin_of_codes + 5) & 31, word >> (begin_of_codes + 10) & 31},
+        number_bits((word >> begin_of_width & 15) * 4),
+        pairs((word >> begin_of_pairs & 3) + 1),
         bytes_of_numbers(word >> begin_of_size & 31) {}
 
-  static constexpr std::uint32_t begin_of_codes = 4, begin_of_width = 19, begin_of_size = 24, zeros = 1u << 29;
-  static constexpr std::uint32_t begin_of_indices = 64, begin_of_bases = 160, begin_of_joined = 208,
-                                 begin_of_numbers = 216;
+  static constexpr std::uint32_t begin_of_codes = 4, begin_of_width = 19, begin_of_pairs = 23, begin_of_size = 25;
+  static constexpr std::uint32_t begin_of_bases = 64, begin_of_joined = 112, begin_of_indices = 120;
+  /// In bytes, as are those of corners.
+  constexpr std::uint32_t begin_of_numbers() const { return begin_of_indices / 8 + 3 * pairs; }
+  constexpr std::uint32_t begin_of_corners() const { return begin_of_numbers() + bytes_of_numbers; }
 
   /// A register of 64 bytes has the bytes that any one of numbers so wide is in; wider ones take whole words.
   static constexpr std::uint32_t most_bits = 25, code_of_words = 31;
-  static constexpr std::uint32_t bits_of_code(std::uint32_t code) { return code + (code + 1) / 32; }
+  static constexpr std::array<std::uint8_t, 32> bits_of_code = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10,
+                                                                11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+                                                                22, 23, 24, 25, 22, 23, 24, 25, 32, 32};
+  static constexpr std::uint32_t first_repeated = most_bits + 1, bytes_of_changes = 2;
+  static constexpr bool repeats(std::uint32_t code) { return code >= first_repeated && code != code_of_words; }
   static constexpr std::uint32_t bytes_of(std::uint32_t count, std::uint32_t bits) { return (count * bits + 7) / 8; }
-  constexpr std::uint32_t words() const {
-    std::uint32_t bytes = begin_of_numbers / 8 + bytes_of_numbers;
-    for (std::uint32_t axis = 0; axis < 3; ++axis) bytes += bytes_of(corners, bits[axis]);
-    return (bytes + 3) / 4;
+
+  /// Of an axis that is kept at `stream`.
+  std::uint32_t bytes_of_axis(std::uint32_t code, const std::uint8_t* stream) const {
+    if (!repeats(code)) return bytes_of(corners, bits_of_code[code]);
+    return bytes_of_changes +
+           bytes_of(static_cast<std::uint32_t>(std::popcount(changes_at(stream))), bits_of_code[code]);
+  }
+  static std::uint32_t changes_at(const std::uint8_t* stream) {
+    std::uint16_t changes;
+    std::memcpy(&changes, stream, sizeof changes);
+    return changes;
   }
 };
+
+/// The size of a packed leaf, or of a part of one.
+inline std::uint32_t words_of_packed(const std::uint32_t* words) {
+  const PackedLeafHead head(words[0]);
+  const auto* stream = reinterpret_cast<const std::uint8_t*>(words);
+  std::uint32_t bytes = head.begin_of_corners();
+  for (const std::uint32_t code : head.codes) bytes += head.bytes_of_axis(code, stream + bytes);
+  return (bytes + 3) / 4;
+}
 
 /// Set in the first word of a packed leaf; in no name of a triangle.
 inline constexpr std::uint32_t packed_leaf = 1u << 30;
@@ -77,25 +111,34 @@ inline constexpr std::size_t words_at_once = 17;
 class OwnCorners {
  public:
   /// Of as many of `names`, which ascend and are not none, as can be packed together.
-  OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh);
+  OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh, bool tight);
 
   std::size_t triangles() const { return triangles_; }
-  std::size_t words() const { return PackedLeafHead(head()).words(); }
+  std::size_t words() const;
   /// Writes words(), which are zero, at `out`.
   void pack(std::uint32_t* out, bool more) const;
 
  private:
+  struct Axis {
+    std::uint32_t base = 0, code = 0, bytes = 0;
+  };
+  using Axes = std::array<Axis, 3>;
+  static constexpr std::size_t no_axis = 3;
+
   bool add(std::uint32_t name, const Mesh& mesh);
-  void measure_corners();
   void measure_numbers();
+  Axes measure_axes(std::size_t repeated) const;
+  void measure_corners();
+  void sort_corners(std::size_t axis);
+  std::uint32_t changes(std::size_t axis) const;
   std::uint32_t head() const;
 
+  bool tight_;
   std::uint32_t triangles_ = 0, corners_ = 0;
   std::array<std::uint32_t, most_packed_triangles> names_{};
   std::array<std::array<std::uint8_t, most_packed_triangles>, 3> index_{};
   std::array<std::array<std::uint32_t, most_packed_corners>, 3> corner_{};  // bits of x, y, z
-  std::array<std::uint32_t, 3> base_{};                                     // of x, y, z
-  std::array<std::uint32_t, 3> code_{};                                     // of their widths, as the head has them
+  Axes axes_{};
   std::uint32_t joined_ = 0, number_bits_ = 0;
 };
 
@@ -104,13 +147,13 @@ inline constexpr std::size_t most_triangles_in_parts = 16;
 
 /// Calls use(triangles with their corners, whether more follow) for all parts of a leaf of up to so many triangles.
 template <class Use>
-void for_each_packed(std::span<const std::uint32_t> of_leaf, const Mesh& mesh, const Use& use) {
+void for_each_packed(std::span<const std::uint32_t> of_leaf, const Mesh& mesh, bool tight, const Use& use) {
   std::array<std::uint32_t, most_triangles_in_parts> ascending;
   std::ranges::copy(of_leaf, ascending.begin());
   auto names = std::span(ascending).first(of_leaf.size());
   std::ranges::sort(names);
   while (!names.empty()) {
-    const OwnCorners part(names, mesh);
+    const OwnCorners part(names, mesh, tight);
     names = names.subspan(part.triangles());
     use(part, !names.empty());
   }

@@ -33,14 +33,10 @@ void for_each_leaf(const Tree& tree, const Visit& visit) {
 /// Which leaves hold their own corners.
 class LeafSizes {
  public:
-  LeafSizes(const Tree& tree, const Mesh& mesh) : tree_(tree), packed_(tree.nodes.size()) {
-    for_each_leaf(tree, [&](std::size_t i, std::span<const std::uint32_t> names) {
-      if (names.size() > most_triangles_in_parts) return;
-      for_each_packed(names, mesh, [&](const OwnCorners& part, bool) {
-        packed_[i] = static_cast<std::uint8_t>(packed_[i] + part.words());
-      });
-    });
-  }
+  LeafSizes(const Tree& tree, const Mesh& mesh) : tree_(tree), mesh_(mesh), packed_(tree.nodes.size()) { measure(); }
+
+  /// Whether packed leaves are tight.
+  bool tight() const { return tight_; }
 
   /// Words of a leaf; a name takes one.
   std::size_t words(std::size_t leaf) const { return packed_[leaf] != 0 ? packed_[leaf] : tree_.nodes[leaf].count; }
@@ -57,9 +53,12 @@ class LeafSizes {
     return total;
   }
 
-  /// Has leaves name their triangles until all take no more than `most` words: those first that rays meet least, by
-  /// their area, for what packing them adds.
+  /// Brings all to no more than `most` words: packs leaves tight, and if that is not enough has leaves name their
+  /// triangles, those first that rays meet least, by their area, for what packing them adds.
   void fit(std::size_t most) {
+    if (total() <= most) return;
+    tight_ = true;
+    measure();
     if (total() <= most) return;
     std::vector<std::size_t> grown(buckets);
     for (std::size_t i = 0; i < packed_.size(); ++i) grown[bucket(i)] += growth(i);
@@ -89,6 +88,15 @@ class LeafSizes {
   }
 
  private:
+  void measure() {
+    for_each_leaf(tree_, [&](std::size_t i, std::span<const std::uint32_t> names) {
+      if (names.size() > most_triangles_in_parts) return;
+      std::size_t words = 0;
+      for_each_packed(names, mesh_, tight_, [&](const OwnCorners& part, bool) { words += part.words(); });
+      packed_[i] = static_cast<std::uint8_t>(words);
+    });
+  }
+
   /// Words that packing takes beyond names.
   std::size_t growth(std::size_t i) const {
     return packed_[i] > tree_.nodes[i].count ? packed_[i] - tree_.nodes[i].count : 0u;
@@ -113,6 +121,8 @@ class LeafSizes {
   }
 
   const Tree& tree_;
+  const Mesh& mesh_;
+  bool tight_ = false;
   std::vector<std::uint8_t> packed_;  // words of leaves with corners of their own; 0 for others
 };
 
@@ -148,6 +158,7 @@ class Encoder {
   }
 
   std::size_t node_bytes() const { return node_bytes_; }
+  bool tight() const { return sizes_.tight(); }
   /// Whether any leaf only names triangles.
   bool needs_mesh() const { return sizes_.names_any(); }
 
@@ -186,7 +197,7 @@ class Encoder {
     for_each_leaf(tree_, [&](std::size_t i, std::span<const std::uint32_t> names) {
       std::uint32_t* out = words_ + places_[i];
       if (sizes_.is_packed(i)) {
-        for_each_packed(names, mesh_, [&](const OwnCorners& part, bool more) {
+        for_each_packed(names, mesh_, sizes_.tight(), [&](const OwnCorners& part, bool more) {
           part.pack(out, more);
           out += part.words();
         });
@@ -300,6 +311,7 @@ QuantizedArena encode_quantized(const Tree& tree, const Mesh& mesh, std::size_t 
   out.triangles = mesh.triangles;
   out.bounds = tree.empty() ? Box{} : tree.nodes[0].bounds;
   out.view = quantized_view(out.memory.data(), sizeof(Node), out.positions, out.triangles);
+  out.view.tight = encoder.tight();
   if (!encoder.needs_mesh()) out.view.positions = nullptr;
   out.view.reach = tree.empty() ? 0 : reach_of_box(out.bounds);
   out.view.stack = needs_of(tree).stack;

@@ -156,8 +156,11 @@ struct QuantizedStore {
                                               BlockBuffer& out) {
     const auto* words = reinterpret_cast<const std::uint32_t*>(place_of(view, reference));
     if (HWY_LIKELY((words[0] & packed_leaf) != 0)) {
-      for (; number > 0; --number) words += PackedLeafHead(words[0]).words();
-      unpack_leaf(words, out);
+      for (; number > 0; --number) words += words_of_packed(words);
+      if (HWY_LIKELY(!view.tight))
+        unpack_leaf(words, out);
+      else
+        unpack_tight_leaf(words, out);
       return out;
     }
     const int count = load_names(words + number * 8, out.primitives);

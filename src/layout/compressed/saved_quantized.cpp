@@ -70,7 +70,8 @@ class QuantizedCheck {
   bool take_leaf(WideReference reference) {
     const std::size_t place = reference >> 1;
     if (place == 0 || place >= words_.size()) return false;
-    return (words_[place] & packed_leaf) != 0 ? take_packed(place) : take_names(place);
+    if ((words_[place] & packed_leaf) != 0) return take_packed(place);
+    return (facts_.leaf_forms & named_leaves) != 0 && take_names(place);
   }
 
   /// As the kernels find it, in the same arithmetic; 0 where there is none.
@@ -114,39 +115,59 @@ class QuantizedCheck {
 
   bool take_packed(std::size_t place) {
     for (bool more = true; more;) {
-      if (place >= words_.size()) return false;
-      const PackedLeafHead head(words_[place]);
-      if (!take_words(place, head.words()) || !is_sound_packed(&words_[place], head)) return false;
-      more = (words_[place] & packed_more) != 0;
-      place += head.words();
+      if (place + words_at_once > words_.size() || !is_sound_packed(place)) return false;
+      const std::uint32_t* words = &words_[place];
+      more = (words[0] & packed_more) != 0;
+      place += words_of_packed(words);
     }
     return true;
   }
 
-  bool is_sound_packed(const std::uint32_t* words, const PackedLeafHead& head) const {
-    if ((words[0] & packed_leaf) == 0 || (words[0] & PackedLeafHead::zeros) != 0) return false;
-    for (const std::uint32_t bits : std::span(head.bits).first(3)) {
-      if (bits > PackedLeafHead::most_bits && bits != 32) return false;
-    }
+  /// Takes the words of a part as well. Those that a head and its corners' changes say are read before they are taken:
+  /// there are enough.
+  bool is_sound_packed(std::size_t place) {
+    const std::uint32_t* words = &words_[place];
+    const PackedLeafHead head(words[0]);
+    if ((words[0] & packed_leaf) == 0 || head.number_bits > 32) return false;
     PackedBits joined(words, PackedLeafHead::begin_of_joined);
     const NumberRuns runs(joined.take(most_packed_triangles));
     if ((runs.firsts & 1) == 0) return false;
-    if (head.bytes_of_numbers != PackedLeafHead::bytes_of(runs.count() - 1, head.bits[3])) return false;
-    return are_sound_triangles(words, head, runs);
+    if (head.bytes_of_numbers != PackedLeafHead::bytes_of(runs.count() - 1, head.number_bits)) return false;
+    return has_allowed_form(head) && are_sound_corners(place, head) && take_words(place, words_of_packed(words)) &&
+           are_sound_triangles(words, head, runs);
+  }
+
+  bool has_allowed_form(const PackedLeafHead& head) const {
+    if ((facts_.leaf_forms & tight_leaves) != 0) return true;
+    return 2 * head.pairs == most_packed_triangles && std::ranges::none_of(head.codes, PackedLeafHead::repeats);
+  }
+
+  /// Whether what axes that repeat begin with lies within the words, and has no corner that is not there.
+  bool are_sound_corners(std::size_t place, const PackedLeafHead& head) const {
+    const auto bytes = std::as_bytes(words_.subspan(place));
+    const auto* stream = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    std::size_t at = head.begin_of_corners();
+    for (const std::uint32_t code : head.codes) {
+      if (at + PackedLeafHead::bytes_of_changes > bytes.size()) return false;
+      if (PackedLeafHead::repeats(code) && PackedLeafHead::changes_at(stream + at) >> head.corners != 0) return false;
+      at += head.bytes_of_axis(code, stream + at);
+    }
+    return true;
   }
 
   /// Those that are missing are points, and have no number. The first is there: its number must not look like a flag.
   bool are_sound_triangles(const std::uint32_t* words, const PackedLeafHead& head, const NumberRuns& runs) const {
-    PackedBits numbers(words, PackedLeafHead::begin_of_numbers);
+    PackedBits numbers(words, 8 * head.begin_of_numbers());
     std::uint64_t number = words[1];
     for (std::uint32_t i = 0; i < most_packed_triangles; ++i) {
-      std::uint32_t corner[3];
-      for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
-        corner[vertex] = PackedBits(words, PackedLeafHead::begin_of_indices + 32 * vertex + 4 * i).take(4);
+      std::uint32_t corner[3] = {};
+      for (std::uint32_t vertex = 0; vertex < 3 && i < 2 * head.pairs; ++vertex) {
+        const std::uint32_t begin = PackedLeafHead::begin_of_indices + 8 * head.pairs * vertex;
+        corner[vertex] = PackedBits(words, begin + 4 * i).take(4);
         if (corner[vertex] >= head.corners) return false;
       }
       const bool first = (runs.firsts >> i & 1) != 0;
-      if (i != 0) number = first ? std::uint64_t{words[1]} + numbers.take(head.bits[3]) : number + 1;
+      if (i != 0) number = first ? std::uint64_t{words[1]} + numbers.take(head.number_bits) : number + 1;
       const bool point = corner[0] == corner[1] && corner[0] == corner[2];
       if (number >= mesh_.triangles.size() && (i == 0 || !point)) return false;
     }
@@ -191,6 +212,8 @@ std::shared_ptr<const Layout> restore_quantized(const SavedLevel& level, const T
     view.reach = facts.reach;
     view.stack = facts.stack;
     view.out_of_cache = facts.out_of_cache != 0;
+    view.tight = (facts.leaf_forms & tight_leaves) != 0;
+    if ((facts.leaf_forms & named_leaves) == 0) view.positions = nullptr;
     const WideShape shape{facts.nodes, facts.nodes * sizeof(Node), N, facts.inner_children, facts.triangles};
     return std::make_shared<SimdLayout<KeptQuantized>>(KeptQuantized{level, view, shape}, compressed_kernels<N>());
   });
@@ -204,6 +227,7 @@ void QuantizedArena::save(SavedLevel& out) const {
   out.facts.kind = SavedKind::quantized;
   out.facts.children = static_cast<std::uint32_t>(shape.lanes);
   out.facts.out_of_cache = view.out_of_cache ? 1 : 0;
+  out.facts.leaf_forms = (view.tight ? tight_leaves : 0) | (view.positions != nullptr ? named_leaves : 0);
   out.facts.stack = view.stack;
   out.facts.reach = view.reach;
   if (shape.triangles != 0) out.facts.root_box = bounds;

@@ -22,7 +22,8 @@ struct WideView {
   std::uint32_t stack = 0;    ///< most entries a traversal's stack can hold
   bool out_of_cache = false;  ///< too large for a core's own caches, so that prefetches pay
 
-  // Where leaves only name their triangles: the caller's mesh.
+  bool tight = false;  ///< packed leaves may be tight (../compressed/packed_leaf.h)
+  // Where leaves only name their triangles: the caller's mesh; null where none does.
   const Vec3* positions = nullptr;
   const Triangle* triangles = nullptr;
 };
