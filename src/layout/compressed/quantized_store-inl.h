@@ -169,6 +169,11 @@ struct QuantizedStore {
     return out;
   }
 
+  static HWY_INLINE WideReference next_block(const WideView& view, WideReference reference) {
+    const auto* words = reinterpret_cast<const std::uint32_t*>(place_of(view, reference));
+    return reference + 2 * ((words[0] & packed_leaf) != 0 ? words_of_packed(words) : 8);
+  }
+
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
     const std::byte* place = place_of(view, reference);
     // Leaves of 60 to 130 bytes begin anywhere in a line.

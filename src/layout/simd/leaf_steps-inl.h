@@ -150,8 +150,21 @@ class PassBlocks {
   std::uint32_t more_ = 0;
 };
 
+/// Where a ray's stack has a reference, be it of entries or of references alone.
+HWY_INLINE WideReference& reference_of(StackEntry& entry) { return entry.reference; }
+HWY_INLINE WideReference& reference_of(WideReference& reference) { return reference; }
+
 template <class Store>
 struct LeafSteps<Store, 8> {
+  /// Has a ray come to the next block of its leaf as it comes to leaves: on its stack, right above the top, is still
+  /// what the leaf was taken from.
+  template <class Entry>
+  static HWY_INLINE void push_next_block(const WideView& view, Slot& slot) {
+    auto* const taken = top_of<Entry>(slot);
+    reference_of(*taken) = Store::next_block(view, slot.next);
+    slot.top = taken + 1;
+  }
+
   /// The best of what was found for one ray, the i-th.
   static HWY_INLINE void keep_best(const PassBlocks<Store>& leaves, const PassHits& hits, std::uint32_t i,
                                    std::uint32_t lanes, Slot& slot) {
@@ -185,7 +198,7 @@ struct LeafSteps<Store, 8> {
     }
     if (HWY_LIKELY(!leaves.any_goes_on())) return;
     for (std::uint32_t i = 0; i < list.size; ++i) {
-      if (leaves.goes_on(i)) closest_in_blocks<Store>(view, 1, slots.at(list.offsets[i]));
+      if (leaves.goes_on(i)) push_next_block<StackEntry>(view, slots.at(list.offsets[i]));
     }
   }
   template <class Decide>
@@ -193,19 +206,16 @@ struct LeafSteps<Store, 8> {
     list.repeat_last();
     PassBlocks<Store> leaves;
     leaves.open(slots, view, list);
-    const auto more_found = [&](std::uint32_t i, const Slot& slot)
-                                HWY_ATTR { return leaves.goes_on(i) && any_in_blocks<Store>(view, 1, slot); };
     for (std::uint32_t i = 0; i < list.size; i += 2) {
       Slot& a = slots.at(list.offsets[i]);
       Slot& b = slots.at(list.offsets[i + 1]);
       const std::uint32_t bits = leaves.hit(view, {a, b}, i, [](const TriangleHits<RayPair::D>&) HWY_ATTR {});
-      bool found_a = (bits & 0xff) != 0, found_b = (bits & 0xff00) != 0;
-      if (HWY_UNLIKELY(leaves.any_goes_on())) {
-        found_a = found_a || more_found(i, a);
-        found_b = found_b || more_found(i + 1, b);
-      }
-      decide(i, a, found_a);
-      if (i + 1 < list.size) decide(i + 1, b, found_b);
+      const auto go_on = [&](std::uint32_t number, Slot& slot, bool found) HWY_ATTR {
+        if (leaves.any_goes_on() && leaves.goes_on(number)) push_next_block<WideReference>(view, slot);
+        decide(number, slot, found);
+      };
+      go_on(i, a, (bits & 0xff) != 0);
+      if (i + 1 < list.size) go_on(i + 1, b, (bits & 0xff00) != 0);
     }
   }
 };

@@ -36,6 +36,11 @@ struct PlainStore {
                                               BlockBuffer&) {
     return reinterpret_cast<const LeafBlock<L>*>(view.base + wide_offset(reference))[number];
   }
+  /// The rest of a leaf, from its second block on.
+  static HWY_INLINE WideReference next_block(const WideView&, WideReference reference) {
+    static_assert(sizeof(LeafBlock<L>) % 32 == 0);
+    return reference + sizeof(LeafBlock<L>) / 16;
+  }
   /// All lines of a node or of a block.
   static HWY_INLINE void prefetch(const WideView& view, WideReference reference) {
     constexpr std::size_t node_bytes = sizeof(WideNode<N>), block_bytes = sizeof(LeafBlock<L>);
