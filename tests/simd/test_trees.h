@@ -127,7 +127,8 @@ inline std::vector<Ray> test_rays(const Scene& scene) {
   return rays;
 }
 
-/// Splits by the median of the longest axis into `arity` parts until at most `leaf` triangles are left.
+/// Splits by the median of the longest axis into `arity` parts until at most `leaf` triangles are left: those nearly,
+/// since the last split makes no more parts than it takes.
 inline Tree test_tree(const Mesh& mesh, std::uint32_t arity, std::uint32_t leaf) {
   Tree tree;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -155,7 +156,7 @@ inline Tree test_tree(const Mesh& mesh, std::uint32_t arity, std::uint32_t leaf)
     std::sort(
         tree.references.begin() + first, tree.references.begin() + first + count,
         [&](std::uint32_t a, std::uint32_t b) { return bounds_of(a).center()[axis] < bounds_of(b).center()[axis]; });
-    const std::uint32_t parts = std::min(arity, count);
+    const std::uint32_t parts = std::min(arity, (count + leaf - 1) / leaf);
     tree.nodes[i].first = static_cast<std::uint32_t>(tree.nodes.size());
     tree.nodes[i].count = parts & Tree::max_count;
     tree.nodes[i].leaf = 0;
