@@ -263,7 +263,9 @@ class SavedLeaf {
 constexpr std::uint32_t begin_of_number = 32, begin_of_more = 31;
 /// Without numbers of triangles but the first.
 constexpr SavedLeaf::Change no_width{Head::begin_of_width, 4, 0}, no_numbers{Head::begin_of_size, 5, 0};
-constexpr SavedLeaf::Change all_follow{Head::begin_of_joined, 8, 0xfe};
+/// Where all eight triangles have indices.
+constexpr std::uint32_t begin_of_indices = 8 * Head::begin_of_indices, begin_of_joined = begin_of_indices + 144;
+constexpr SavedLeaf::Change all_follow{begin_of_joined, 8, 0xfe};
 
 TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   const SavedLeaf leaf("compressed(16, bytes=64)");
@@ -274,12 +276,12 @@ TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {
   EXPECT_TRUE(leaf.refuses({{Head::begin_of_codes, 5, Head::code_of_words}})) << "longer than it is";
   EXPECT_TRUE(leaf.refuses({{begin_of_more, 1, 1}})) << "more parts than there are";
   EXPECT_TRUE(leaf.refuses({{begin_of_number, 32, 0x3fffffff}})) << "a triangle that the mesh does not have";
-  EXPECT_TRUE(leaf.refuses({{Head::begin_of_indices, 4, 15}})) << "a corner that the leaf does not have";
+  EXPECT_TRUE(leaf.refuses({{begin_of_indices, 4, 15}})) << "a corner that the leaf does not have";
   EXPECT_FALSE(leaf.refuses({no_width, no_numbers, all_follow}));
-  EXPECT_TRUE(leaf.refuses({no_width, no_numbers, {Head::begin_of_joined, 8, 0xff}})) << "no first triangle";
+  EXPECT_TRUE(leaf.refuses({no_width, no_numbers, {begin_of_joined, 8, 0xff}})) << "no first triangle";
   EXPECT_TRUE(leaf.refuses({{Head::begin_of_width, 4, 9}, no_numbers, all_follow})) << "36 bits per number";
   EXPECT_TRUE(leaf.refuses({all_follow})) << "another count of numbers than there is room for";
-  const SavedLeaf::Change points{Head::begin_of_indices, 96, 0};
+  const SavedLeaf::Change points{begin_of_indices, 96, 0};
   EXPECT_FALSE(leaf.refuses({no_width, no_numbers, all_follow, points}));
   EXPECT_TRUE(leaf.refuses({no_width, no_numbers, all_follow, points, {begin_of_number, 32, 0xffffffff}}))
       << "a number that says that more follow";

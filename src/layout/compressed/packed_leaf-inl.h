@@ -66,7 +66,7 @@ HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint8_t* stream, std::uint32_t
 /// Which corners are the vertices of eight triangles: for each vertex a word of 4 bits per triangle, as they lie in
 /// leaves that are not tight.
 HWY_INLINE const std::uint8_t* indices_of(const std::uint32_t* words) {
-  return reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_indices / 8;
+  return reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_indices;
 }
 
 /// The same of a tight leaf, which has only those of the triangles that are there.
@@ -96,10 +96,9 @@ HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint8_t* indices, int verte
 }
 
 /// The base of an axis: its upper half is kept.
-HWY_INLINE std::uint32_t base_of(const std::uint32_t* words, int axis) {
+HWY_INLINE std::uint32_t base_of(const std::uint8_t* bases, int axis) {
   std::uint32_t word;
-  constexpr std::size_t lower_half = PackedLeafHead::begin_of_bases / 8 - 2;
-  std::memcpy(&word, reinterpret_cast<const std::byte*>(words) + lower_half + 2 * axis, sizeof word);
+  std::memcpy(&word, bases + 2 * axis - 2, sizeof word);
   return word;
 }
 
@@ -134,16 +133,16 @@ template <class D, bool Tight>
 class PackedCorners {
  public:
   HWY_INLINE explicit PackedCorners(const std::uint32_t* words)
-      : words_(words),
-        stream_(reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead(words[0]).begin_of_corners()),
+      : bases_(reinterpret_cast<const std::uint8_t*>(words) + head_of(words).begin_of_bases()),
+        stream_(reinterpret_cast<const std::uint8_t*>(words) + head_of(words).begin_of_corners()),
         codes_(words[0] >> PackedLeafHead::begin_of_codes),
-        corners_(PackedLeafHead(words[0]).corners) {}
+        corners_(head_of(words).corners) {}
 
   /// The next axis: calls use(i, the coordinates of a register full of corners from the i-th on). Lanes behind the last
   /// corner hold anything.
   template <class Use>
   HWY_INLINE void next(const Use& use) {
-    const std::uint32_t code = codes_ & 31, bits = PackedLeafHead::bits_of_code[code];
+    const std::uint32_t code = codes_ & 31, bits = bits_of(code);
     if (Tight && PackedLeafHead::repeats(code)) {
       const std::uint32_t changes = PackedLeafHead::changes_at(stream_);
       stream_ += PackedLeafHead::bytes_of_changes;
@@ -160,10 +159,20 @@ class PackedCorners {
  private:
   using Words = hn::RebindToUnsigned<D>;
 
+  static HWY_INLINE PackedLeafHead head_of(const std::uint32_t* words) {
+    PackedLeafHead head(words[0]);
+    if constexpr (!Tight) head.pairs = most_packed_triangles / 2;
+    return head;
+  }
+  /// Of codes of leaves that are not tight by arithmetic, which takes less time than the table.
+  static HWY_INLINE std::uint32_t bits_of(std::uint32_t code) {
+    return Tight ? PackedLeafHead::bits_of_code[code] : code + (code + 1) / 32;
+  }
+
   /// Of the first `count` values that follow.
   template <class Use>
   HWY_INLINE void for_each_register(std::uint32_t count, std::uint32_t code, const Use& use) const {
-    const auto base = hn::Set(Words(), base_of(words_, axis_));
+    const auto base = hn::Set(Words(), base_of(bases_, axis_));
     for (std::uint32_t i = 0; i < count; i += lanes_of<D>) {
       use(i, hn::BitCast(D(), hn::Add(differences(i, code), base)));
       if constexpr (lanes_of<D> >= most_packed_corners) break;
@@ -210,11 +219,10 @@ class PackedCorners {
       return hn::And(hn::Shr(words, hn::Load(d, taken.shifts)), hn::Set(d, taken_bits.masks[code]));
     }
 #endif
-    const std::uint32_t bits = PackedLeafHead::bits_of_code[code];
-    return unpack_bits(d, stream_, i * bits, bits);
+    return unpack_bits(d, stream_, i * bits_of(code), bits_of(code));
   }
 
-  const std::uint32_t* words_;
+  const std::uint8_t* bases_;
   const std::uint8_t* stream_;
   std::uint32_t codes_, corners_;
   int axis_ = 0;
@@ -270,8 +278,8 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* i
 /// The number of one triangle of a packed leaf.
 HWY_INLINE std::uint32_t number_of_packed(const std::uint32_t* words, std::uint32_t triangle) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
-  const NumberRuns runs(bytes[PackedLeafHead::begin_of_joined / 8], triangle);
   const PackedLeafHead head(words[0]);
+  const NumberRuns runs(bytes[head.begin_of_joined()], triangle);
   const auto bits = static_cast<std::int32_t>(head.number_bits);
   // Of the first run nothing is kept: what is before the others is read, and none of it taken. No branch, since runs
   // come as they like.
@@ -306,7 +314,7 @@ HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
     const PackedLeafHead head(words[0]);
     const std::uint32_t bits = head.number_bits;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
-    const auto* entries = runs_table.of_joined[bytes[PackedLeafHead::begin_of_joined / 8]];
+    const auto* entries = runs_table.of_joined[bytes[head.begin_of_joined()]];
     const hn::Rebind<std::uint8_t, decltype(d)> narrow;
     const auto entry = hn::PromoteTo(d, hn::LoadU(narrow, entries));
     const auto run = hn::And(entry, hn::Set(d, 15));

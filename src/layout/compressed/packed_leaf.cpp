@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <utility>
 
 namespace boxwood {
 namespace {
@@ -56,7 +55,14 @@ OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh, b
     if (!add(name, mesh)) break;
   }
   measure_numbers();
-  measure_corners();
+  measure_axes(no_axis);
+  const OwnCorners unsorted = *this;
+  for (std::size_t axis = 0; tight_ && axis < 3; ++axis) {
+    OwnCorners sorted = unsorted;
+    sorted.sort_corners(axis);
+    sorted.measure_axes(axis);
+    if (sorted.words() < words()) *this = sorted;
+  }
 }
 
 bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
@@ -85,16 +91,23 @@ void OwnCorners::measure_numbers() {
   number_bits_ = (static_cast<std::uint32_t>(std::bit_width(names_[triangles_ - 1] - names_[0])) + 3) / 4 * 4;
 }
 
-/// With the values of one axis, or none, kept once.
-OwnCorners::Axes OwnCorners::measure_axes(std::size_t repeated) const {
-  Axes out;
-  std::uint32_t before = names_[0] >> 16;
+/// The last 16 bits of the indices.
+std::uint32_t OwnCorners::end_of_indices() const {
+  std::uint64_t stream = 0;
+  for (const auto& of_vertex : index_) {
+    for (std::size_t i = 0; i < std::size_t{2} * pairs(); ++i) stream = stream >> 4 | std::uint64_t{of_vertex[i]} << 12;
+  }
+  return static_cast<std::uint32_t>(stream);
+}
+
+/// With the values of one axis, by which corners are sorted, or none, kept once.
+void OwnCorners::measure_axes(std::size_t repeated) {
+  std::uint32_t before = end_of_indices();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::array<std::uint32_t, most_packed_corners> sorted = corner_[axis];
-    auto values = std::span(sorted).first(corners_);
+    std::array<std::uint32_t, most_packed_corners> kept = corner_[axis];
+    auto values = std::span(kept).first(corners_);
     const bool repeats = axis == repeated;
     if (repeats) {
-      std::ranges::sort(values);
       values = values.first(corners_ - std::ranges::unique(values).size());
       if (values.front() == 0) values = values.subspan(1);
     }
@@ -104,27 +117,11 @@ OwnCorners::Axes OwnCorners::measure_axes(std::size_t repeated) const {
     std::uint32_t bits = 0;
     for (const std::uint32_t value : values) bits |= value - base;
     const std::uint32_t code = code_of(static_cast<std::uint32_t>(std::bit_width(bits)), repeats);
-    out[axis] = {
-        base, code,
-        (repeats ? PackedLeafHead::bytes_of_changes : 0) +
-            PackedLeafHead::bytes_of(static_cast<std::uint32_t>(values.size()), PackedLeafHead::bits_of_code[code])};
+    const auto count = static_cast<std::uint32_t>(values.size());
+    axes_[axis] = {base, code,
+                   (repeats ? PackedLeafHead::bytes_of_changes : 0) +
+                       PackedLeafHead::bytes_of(count, PackedLeafHead::bits_of_code[code])};
   }
-  return out;
-}
-
-void OwnCorners::measure_corners() {
-  axes_ = measure_axes(no_axis);
-  std::size_t best = no_axis, least = words();
-  for (std::size_t axis = 0; tight_ && axis < 3; ++axis) {
-    const Axes plain = std::exchange(axes_, measure_axes(axis));
-    if (words() < least) {
-      best = axis;
-      least = words();
-    } else {
-      axes_ = plain;
-    }
-  }
-  if (best != no_axis) sort_corners(best);
 }
 
 void OwnCorners::sort_corners(std::size_t axis) {
@@ -155,7 +152,7 @@ std::uint32_t OwnCorners::head() const {
   using Head = PackedLeafHead;
   std::uint32_t out = packed_leaf | (corners_ - 1) | number_bits_ / 4 << Head::begin_of_width;
   for (std::size_t i = 0; i < 3; ++i) out |= axes_[i].code << (Head::begin_of_codes + 5 * i);
-  out |= ((tight_ ? triangles_ : most_packed_triangles) - 1) / 2 << Head::begin_of_pairs;
+  out |= (pairs() - 1) << Head::begin_of_pairs;
   return out | Head::bytes_of(NumberRuns(joined_).count() - 1, number_bits_) << Head::begin_of_size;
 }
 
@@ -170,11 +167,11 @@ void OwnCorners::pack(std::uint32_t* out, bool more) const {
   BitWriter bits(out);
   bits.put(head() | (more ? packed_more : 0), 32);
   bits.put(names_[0], 32);
-  for (const Axis& axis : axes_) bits.put(axis.base >> 16, 16);
-  bits.put(joined_, most_packed_triangles);
   for (const auto& of_vertex : index_) {
     for (std::size_t i = 0; i < std::size_t{2} * h.pairs; ++i) bits.put(of_vertex[i], 4);
   }
+  for (const Axis& axis : axes_) bits.put(axis.base >> 16, 16);
+  bits.put(joined_, most_packed_triangles);
   for (std::uint32_t i = 1; i < triangles_; ++i) {
     if ((joined_ >> i & 1) == 0) bits.put(names_[i] - names_[0], number_bits_);
   }

@@ -36,11 +36,11 @@ struct NumberRuns {
 ///    25  bytes that hold numbers, 5 bits
 ///    30  1 for `packed_leaf`; 1 when more triangles of the leaf follow, packed likewise
 ///    32  the number of the first triangle, which is the least
-///    64  the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
-///   112  of eight triangles a bit each: whether its number is one more than that of the one before; of missing ones 1
-///   120  which corner is the first of each triangle, 4 bits each, a byte per pair; of a missing one 0; then the
-///   second,
+///    64  which corner is the first of each triangle, 4 bits each, a byte per pair; of a missing one 0; then the
+///    second,
 ///        the third
+///        the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
+///        of eight triangles a bit each: whether its number is one more than that of the one before; of missing ones 1
 ///        of each triangle whose number is not one more, but the first, its number less the least one
 ///        from the next whole byte on, of each corner x less its base, modulo 2^32; from the next the same of y; of z
 /// Filled up with zeros to whole words. Codes up to 25 are the bits of a difference; 31 says 32.
@@ -63,9 +63,11 @@ struct PackedLeafHead {
         bytes_of_numbers(word >> begin_of_size & 31) {}
 
   static constexpr std::uint32_t begin_of_codes = 4, begin_of_width = 19, begin_of_pairs = 23, begin_of_size = 25;
-  static constexpr std::uint32_t begin_of_bases = 64, begin_of_joined = 112, begin_of_indices = 120;
-  /// In bytes, as are those of corners.
-  constexpr std::uint32_t begin_of_numbers() const { return begin_of_indices / 8 + 3 * pairs; }
+  // In bytes.
+  static constexpr std::uint32_t begin_of_indices = 8;
+  constexpr std::uint32_t begin_of_bases() const { return begin_of_indices + 3 * pairs; }
+  constexpr std::uint32_t begin_of_joined() const { return begin_of_bases() + 6; }
+  constexpr std::uint32_t begin_of_numbers() const { return begin_of_joined() + 1; }
   constexpr std::uint32_t begin_of_corners() const { return begin_of_numbers() + bytes_of_numbers; }
 
   /// A register of 64 bytes has the bytes that any one of numbers so wide is in; wider ones take whole words.
@@ -127,9 +129,10 @@ class OwnCorners {
 
   bool add(std::uint32_t name, const Mesh& mesh);
   void measure_numbers();
-  Axes measure_axes(std::size_t repeated) const;
-  void measure_corners();
+  void measure_axes(std::size_t repeated);
   void sort_corners(std::size_t axis);
+  std::uint32_t pairs() const { return ((tight_ ? triangles_ : most_packed_triangles) + 1) / 2; }
+  std::uint32_t end_of_indices() const;
   std::uint32_t changes(std::size_t axis) const;
   std::uint32_t head() const;
 

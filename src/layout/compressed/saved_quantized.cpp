@@ -129,7 +129,7 @@ class QuantizedCheck {
     const std::uint32_t* words = &words_[place];
     const PackedLeafHead head(words[0]);
     if ((words[0] & packed_leaf) == 0 || head.number_bits > 32) return false;
-    PackedBits joined(words, PackedLeafHead::begin_of_joined);
+    PackedBits joined(words, 8 * head.begin_of_joined());
     const NumberRuns runs(joined.take(most_packed_triangles));
     if ((runs.firsts & 1) == 0) return false;
     if (head.bytes_of_numbers != PackedLeafHead::bytes_of(runs.count() - 1, head.number_bits)) return false;
@@ -162,7 +162,7 @@ class QuantizedCheck {
     for (std::uint32_t i = 0; i < most_packed_triangles; ++i) {
       std::uint32_t corner[3] = {};
       for (std::uint32_t vertex = 0; vertex < 3 && i < 2 * head.pairs; ++vertex) {
-        const std::uint32_t begin = PackedLeafHead::begin_of_indices + 8 * head.pairs * vertex;
+        const std::uint32_t begin = 8 * (PackedLeafHead::begin_of_indices + head.pairs * vertex);
         corner[vertex] = PackedBits(words, begin + 4 * i).take(4);
         if (corner[vertex] >= head.corners) return false;
       }
