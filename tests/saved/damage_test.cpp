@@ -264,7 +264,8 @@ constexpr std::uint32_t begin_of_number = 32, begin_of_more = 31;
 /// Without numbers of triangles but the first.
 constexpr SavedLeaf::Change no_width{Head::begin_of_width, 4, 0}, no_numbers{Head::begin_of_size, 5, 0};
 /// Where all eight triangles have indices.
-constexpr std::uint32_t begin_of_indices = 8 * Head::begin_of_indices, begin_of_joined = begin_of_indices + 144;
+constexpr std::uint32_t begin_of_indices = 8 * Head::begin_of_indices,
+                        begin_of_joined = 8 * Head::begin_of_joined(Head::all_pairs);
 constexpr SavedLeaf::Change all_follow{begin_of_joined, 8, 0xfe};
 
 TEST(DamagedStructure, PackedLeavesOfWhatIsNotThereAreRefused) {

@@ -224,6 +224,8 @@ void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names, bool tig
       HWY_NAMESPACE::unpack_tight_leaf(words.data(), block);
     else
       HWY_NAMESPACE::unpack_leaf(words.data(), block);
+    HWY_NAMESPACE::SpreadHead spread;
+    spread.take(words.data());
     const PackedLeafHead head(words[0]);
     ASSERT_EQ(words_of_packed(words.data()), part.words());
     ASSERT_LE(head.corners, most_packed_corners);
@@ -233,7 +235,9 @@ void expect_unpacks(const Mesh& mesh, std::vector<std::uint32_t> names, bool tig
       const std::uint32_t name = names[done + (used ? lane : 0)];
       ASSERT_EQ(used ? block.primitives[lane] & ~more_blocks : name, name);
       if (used) {
-        ASSERT_EQ(HWY_NAMESPACE::number_of_packed(words.data(), static_cast<std::uint32_t>(lane)), name);
+        ASSERT_EQ(
+            HWY_NAMESPACE::number_of_packed(tight ? spread.words : words.data(), static_cast<std::uint32_t>(lane)),
+            name);
       }
       const auto corner = [&](std::size_t vertex) {
         const auto& of_axes = block.vertices[vertex];

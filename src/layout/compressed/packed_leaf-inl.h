@@ -63,37 +63,39 @@ HWY_INLINE hn::Vec<D> unpack_bits(D d, const std::uint8_t* stream, std::uint32_t
   return unpack_at(d, stream + (begin >> 3), place, mask_of_bits(d, bits));
 }
 
-/// Which corners are the vertices of eight triangles: for each vertex a word of 4 bits per triangle, as they lie in
-/// leaves that are not tight.
-HWY_INLINE const std::uint8_t* indices_of(const std::uint32_t* words) {
-  return reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_indices;
+/// Of a leaf that is not tight, which corner is vertex `vertex` of each triangle, 4 bits each.
+HWY_INLINE std::uint32_t indices_of(const std::uint32_t* words, int vertex) {
+  return words[PackedLeafHead::begin_of_indices / 4 + vertex];
 }
 
-/// The same of a tight leaf, which has only those of the triangles that are there.
-HWY_INLINE void spread_indices(const std::uint32_t* words, std::uint8_t* out) {
-  const std::uint32_t pairs = PackedLeafHead(words[0]).pairs;
-  const std::uint32_t there = 0xffffffffu >> (32 - 8 * pairs);
-  for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
-    std::uint32_t of_vertex;
-    std::memcpy(&of_vertex, indices_of(words) + vertex * pairs, sizeof of_vertex);
-    of_vertex &= there;
-    std::memcpy(out + 4 * vertex, &of_vertex, sizeof of_vertex);
-  }
-}
-
-/// A word of `indices`.
-HWY_INLINE std::uint32_t indices_of_vertex(const std::uint8_t* indices, int vertex) {
-  std::uint32_t out;
-  std::memcpy(&out, indices + 4 * vertex, sizeof out);
-  return out;
-}
-
-/// Which corner is vertex `vertex` of each triangle from `begin` on.
+/// Likewise for the triangles from `begin` on, a lane each.
 template <class D>
-HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint8_t* indices, int vertex, std::uint32_t begin) {
-  const auto packed = hn::Set(d, indices_of_vertex(indices, vertex) >> 4 * begin);
+HWY_INLINE hn::Vec<D> unpack_indices(D d, const std::uint32_t* words, int vertex, std::uint32_t begin) {
+  const auto packed = hn::Set(d, indices_of(words, vertex) >> 4 * begin);
   return hn::And(hn::Shr(packed, hn::ShiftLeft<2>(hn::Iota(d, 0))), hn::Set(d, 15));
 }
+
+/// What a tight leaf has before its corners, as other leaves have it.
+struct SpreadHead {
+  std::uint32_t words[16];
+
+  HWY_INLINE void take(const std::uint32_t* tight) {
+    using Head = PackedLeafHead;
+    const std::uint32_t pairs = Head(tight[0]).pairs;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(tight);
+    words[0] = tight[0];
+    words[1] = tight[1];
+    for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
+      std::uint32_t indices;
+      std::memcpy(&indices, bytes + Head::begin_of_indices + vertex * pairs, sizeof indices);
+      words[2 + vertex] = indices & 0xffffffff >> (32 - 8 * pairs);
+    }
+    // To behind the most numbers there can be.
+    std::memcpy(words + 5, bytes + Head::begin_of_bases(pairs), sizeof words - 5 * sizeof words[0]);
+  }
+};
+static_assert(PackedLeafHead::begin_of_numbers(PackedLeafHead::all_pairs) + 7 * sizeof(std::uint32_t) <=
+              sizeof(SpreadHead));
 
 /// The base of an axis: its upper half is kept.
 HWY_INLINE std::uint32_t base_of(const std::uint8_t* bases, int axis) {
@@ -133,7 +135,7 @@ template <class D, bool Tight>
 class PackedCorners {
  public:
   HWY_INLINE explicit PackedCorners(const std::uint32_t* words)
-      : bases_(reinterpret_cast<const std::uint8_t*>(words) + head_of(words).begin_of_bases()),
+      : bases_(reinterpret_cast<const std::uint8_t*>(words) + PackedLeafHead::begin_of_bases(head_of(words).pairs)),
         stream_(reinterpret_cast<const std::uint8_t*>(words) + head_of(words).begin_of_corners()),
         codes_(words[0] >> PackedLeafHead::begin_of_codes),
         corners_(head_of(words).corners) {}
@@ -161,7 +163,7 @@ class PackedCorners {
 
   static HWY_INLINE PackedLeafHead head_of(const std::uint32_t* words) {
     PackedLeafHead head(words[0]);
-    if constexpr (!Tight) head.pairs = most_packed_triangles / 2;
+    if constexpr (!Tight) head.pairs = PackedLeafHead::all_pairs;
     return head;
   }
   /// Of codes of leaves that are not tight by arithmetic, which takes less time than the table.
@@ -230,15 +232,15 @@ class PackedCorners {
 
 #if HWY_TARGET <= HWY_AVX3
 
-/// All corners lie in one register per axis.
+/// All corners lie in one register per axis. `head`: of a leaf that is not tight, or spread.
 template <bool Tight>
-HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* indices, LeafBlock<8>& out) {
+HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint32_t* head, LeafBlock<8>& out) {
   using D = hn::FixedTag<float, 16>;
   const D d;
   const hn::FixedTag<std::uint32_t, 16> du;
   const hn::FixedTag<float, 8> half;
-  const hn::Vec<decltype(du)> index[3] = {unpack_indices(du, indices, 0, 0), unpack_indices(du, indices, 1, 0),
-                                          unpack_indices(du, indices, 2, 0)};
+  const hn::Vec<decltype(du)> index[3] = {unpack_indices(du, head, 0, 0), unpack_indices(du, head, 1, 0),
+                                          unpack_indices(du, head, 2, 0)};
   PackedCorners<D, Tight> corners(words);
   for (int axis = 0; axis < 3; ++axis) {
     corners.next([&](std::uint32_t, hn::Vec<D> coordinates) HWY_ATTR {
@@ -253,7 +255,7 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* i
 #else
 
 template <bool Tight>
-HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* indices, LeafBlock<8>& out) {
+HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint32_t* head, LeafBlock<8>& out) {
   using D = hn::CappedTag<float, 8>;
   const D d;
   const hn::RebindToUnsigned<D> du;
@@ -265,7 +267,7 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* i
   }
   for (int vertex = 0; vertex < 3; ++vertex) {
     for (std::uint32_t i = 0; i < 8; i += lanes_of<D>) {
-      const auto index = hn::BitCast(di, unpack_indices(du, indices, vertex, i));
+      const auto index = hn::BitCast(di, unpack_indices(du, head, vertex, i));
       for (int axis = 0; axis < 3; ++axis) {
         hn::Store(hn::GatherIndex(d, corners[axis], index), d, out.vertices[vertex][axis] + i);
       }
@@ -275,18 +277,18 @@ HWY_INLINE void unpack_corners(const std::uint32_t* words, const std::uint8_t* i
 
 #endif
 
-/// The number of one triangle of a packed leaf.
+/// The number of one triangle of a packed leaf that is not tight.
 HWY_INLINE std::uint32_t number_of_packed(const std::uint32_t* words, std::uint32_t triangle) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
   const PackedLeafHead head(words[0]);
-  const NumberRuns runs(bytes[head.begin_of_joined()], triangle);
+  const NumberRuns runs(bytes[PackedLeafHead::begin_of_joined(PackedLeafHead::all_pairs)], triangle);
   const auto bits = static_cast<std::int32_t>(head.number_bits);
   // Of the first run nothing is kept: what is before the others is read, and none of it taken. No branch, since runs
   // come as they like.
   const auto run = static_cast<std::int32_t>(runs.count()) - 1;
   const std::int32_t begin = (run - 1) * bits;
   std::uint64_t two;
-  std::memcpy(&two, bytes + head.begin_of_numbers() + (begin >> 3), sizeof two);
+  std::memcpy(&two, bytes + PackedLeafHead::begin_of_numbers(PackedLeafHead::all_pairs) + (begin >> 3), sizeof two);
   const std::uint64_t mask = (std::uint64_t{1} << (bits & -static_cast<std::int32_t>(run != 0))) - 1;
   return words[1] + static_cast<std::uint32_t>(two >> (begin & 7) & mask) + triangle - runs.last();
 }
@@ -307,19 +309,20 @@ struct RunsTable {
 };
 inline constexpr RunsTable runs_table;
 
-/// The numbers of eight triangles; those of missing ones may be any.
+/// The numbers of eight triangles of such a leaf; those of missing ones may be any.
 HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
   const hn::CappedTag<std::uint32_t, most_packed_triangles> d;
   if constexpr (lanes_of<decltype(d)> == most_packed_triangles) {
     const PackedLeafHead head(words[0]);
     const std::uint32_t bits = head.number_bits;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
-    const auto* entries = runs_table.of_joined[bytes[head.begin_of_joined()]];
+    const auto* entries = runs_table.of_joined[bytes[PackedLeafHead::begin_of_joined(PackedLeafHead::all_pairs)]];
     const hn::Rebind<std::uint8_t, decltype(d)> narrow;
     const auto entry = hn::PromoteTo(d, hn::LoadU(narrow, entries));
     const auto run = hn::And(entry, hn::Set(d, 15));
     const auto place = hn::Mul(hn::Sub(hn::Max(run, hn::Set(d, 1)), hn::Set(d, 1)), hn::Set(d, bits));
-    const auto kept = unpack_at(d, bytes + head.begin_of_numbers(), place, mask_of_bits(d, bits));
+    const auto kept =
+        unpack_at(d, bytes + PackedLeafHead::begin_of_numbers(PackedLeafHead::all_pairs), place, mask_of_bits(d, bits));
     const auto first = hn::Add(hn::Set(d, words[1]), hn::IfThenZeroElse(hn::Eq(run, hn::Zero(d)), kept));
     hn::Store(hn::Add(first, hn::ShiftRight<4>(entry)), d, out);
   } else {
@@ -329,7 +332,7 @@ HWY_INLINE void unpack_numbers(const std::uint32_t* words, std::uint32_t* out) {
 
 /// A packed leaf, or a part of one.
 HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
-  unpack_corners<false>(words, indices_of(words), out);
+  unpack_corners<false>(words, words, out);
   unpack_numbers(words, out.primitives);
   static_assert(packed_more == more_blocks);
   out.primitives[0] |= words[0] & packed_more;
@@ -337,10 +340,10 @@ HWY_INLINE void unpack_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
 
 /// The same of a tight one.
 HWY_NOINLINE inline void unpack_tight_leaf(const std::uint32_t* words, LeafBlock<8>& out) {
-  std::uint8_t indices[12];
-  spread_indices(words, indices);
-  unpack_corners<true>(words, indices, out);
-  unpack_numbers(words, out.primitives);
+  SpreadHead head;
+  head.take(words);
+  unpack_corners<true>(words, head.words, out);
+  unpack_numbers(head.words, out.primitives);
   out.primitives[0] |= words[0] & packed_more;
 }
 

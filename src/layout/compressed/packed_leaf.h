@@ -63,12 +63,12 @@ struct PackedLeafHead {
         bytes_of_numbers(word >> begin_of_size & 31) {}
 
   static constexpr std::uint32_t begin_of_codes = 4, begin_of_width = 19, begin_of_pairs = 23, begin_of_size = 25;
-  // In bytes.
-  static constexpr std::uint32_t begin_of_indices = 8;
-  constexpr std::uint32_t begin_of_bases() const { return begin_of_indices + 3 * pairs; }
-  constexpr std::uint32_t begin_of_joined() const { return begin_of_bases() + 6; }
-  constexpr std::uint32_t begin_of_numbers() const { return begin_of_joined() + 1; }
-  constexpr std::uint32_t begin_of_corners() const { return begin_of_numbers() + bytes_of_numbers; }
+  // In bytes, of leaves that have indices of so many pairs.
+  static constexpr std::uint32_t all_pairs = most_packed_triangles / 2, begin_of_indices = 8;
+  static constexpr std::uint32_t begin_of_bases(std::uint32_t pairs) { return begin_of_indices + 3 * pairs; }
+  static constexpr std::uint32_t begin_of_joined(std::uint32_t pairs) { return begin_of_bases(pairs) + 6; }
+  static constexpr std::uint32_t begin_of_numbers(std::uint32_t pairs) { return begin_of_joined(pairs) + 1; }
+  constexpr std::uint32_t begin_of_corners() const { return begin_of_numbers(pairs) + bytes_of_numbers; }
 
   /// A register of 64 bytes has the bytes that any one of numbers so wide is in; wider ones take whole words.
   static constexpr std::uint32_t most_bits = 25, code_of_words = 31;

@@ -19,9 +19,9 @@ namespace HWY_NAMESPACE {
 using Words16Of = hn::RebindToUnsigned<RayPair::D>;
 
 /// Which corner is vertex `vertex` of each of eight triangles of two leaves, those of the second from 16 on.
-HWY_INLINE hn::Vec<Words16Of> indices_of_both(const std::uint8_t* a, const std::uint8_t* b, int vertex) {
+HWY_INLINE hn::Vec<Words16Of> indices_of_both(const std::uint32_t* a, const std::uint32_t* b, int vertex) {
   const Words16Of d;
-  const auto of_a = hn::Set(d, indices_of_vertex(a, vertex)), of_b = hn::Set(d, indices_of_vertex(b, vertex));
+  const auto of_a = hn::Set(d, indices_of(a, vertex)), of_b = hn::Set(d, indices_of(b, vertex));
   const auto packed = hn::IfThenElse(hn::FirstN(d, 8), of_a, of_b);
   const auto lane = hn::Iota(d, 0);
   const auto shift = hn::ShiftLeft<2>(hn::And(lane, hn::Set(d, 7)));
@@ -41,17 +41,17 @@ class PassBlocks<QuantizedStore<Node, N>> {
     packed_ = view.positions == nullptr ? with_partner : open_named(slots, view, list);
     if (HWY_UNLIKELY(view.tight)) return unpack_tight(slots, view, list);
     for (std::uint32_t i = 0; i < packed_; ++i) {
-      unpack<false>(i, words_of(view, slots.at(list.offsets[i])));
-      indices_[i] = indices_of(words_[i]);
+      words_[i] = words_of(view, slots.at(list.offsets[i]));
+      unpack<false>(i, words_[i]);
     }
   }
   template <class Keep>
   HWY_INLINE std::uint32_t hit(const WideView& view, const RayPair& rays, std::uint32_t i, const Keep& keep) {
     if (HWY_UNLIKELY(!is_packed(i + 1))) return hit_blocks(view, rays, i, keep);
-    const auto* const of_a = indices_[i];
-    const auto* const of_b = indices_[i + 1];
-    const hn::Vec<Words16Of> index[3] = {indices_of_both(of_a, of_b, 0), indices_of_both(of_a, of_b, 1),
-                                         indices_of_both(of_a, of_b, 2)};
+    const auto* const words_a = words_[i];
+    const auto* const words_b = words_[i + 1];
+    const hn::Vec<Words16Of> index[3] = {indices_of_both(words_a, words_b, 0), indices_of_both(words_a, words_b, 1),
+                                         indices_of_both(words_a, words_b, 2)};
     const Corners a = sheared(rays.a, i), b = sheared(rays.b, i + 1);
     const auto pick = [&](int vertex) HWY_ATTR {
       const auto of_both = [&](hn::Vec<RayPair::D> of_a, hn::Vec<RayPair::D> of_b) HWY_ATTR {
@@ -79,7 +79,6 @@ class PassBlocks<QuantizedStore<Node, N>> {
 
   template <bool Tight>
   HWY_INLINE void unpack(std::uint32_t i, const std::uint32_t* words) {
-    words_[i] = words;
     more_ |= words[0];
     PackedCorners<RayPair::D, Tight> corners(words);
     for (auto& of_axis : corners_[i]) {
@@ -89,9 +88,10 @@ class PassBlocks<QuantizedStore<Node, N>> {
   }
   HWY_NOINLINE void unpack_tight(const Slots& slots, const WideView& view, const SlotList& list) {
     for (std::uint32_t i = 0; i < packed_; ++i) {
-      unpack<true>(i, words_of(view, slots.at(list.offsets[i])));
-      spread_indices(words_[i], spread_[i]);
-      indices_[i] = spread_[i];
+      const auto* const words = words_of(view, slots.at(list.offsets[i]));
+      unpack<true>(i, words);
+      spread_[i].take(words);
+      words_[i] = spread_[i].words;
     }
   }
 
@@ -154,8 +154,7 @@ class PassBlocks<QuantizedStore<Node, N>> {
   }
 
   const std::uint32_t* words_[most_in_flight + 1];
-  const std::uint8_t* indices_[most_in_flight + 1];
-  std::uint8_t spread_[most_in_flight + 1][12];  // of tight leaves
+  SpreadHead spread_[most_in_flight + 1];  // of tight leaves
   alignas(64) float corners_[most_in_flight + 1][3][16];
   LeafBlock<8> blocks_[most_in_flight + 1];  // of leaves that only name triangles
   std::uint32_t packed_ = 0, more_ = 0;

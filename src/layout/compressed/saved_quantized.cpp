@@ -129,7 +129,7 @@ class QuantizedCheck {
     const std::uint32_t* words = &words_[place];
     const PackedLeafHead head(words[0]);
     if ((words[0] & packed_leaf) == 0 || head.number_bits > 32) return false;
-    PackedBits joined(words, 8 * head.begin_of_joined());
+    PackedBits joined(words, 8 * PackedLeafHead::begin_of_joined(head.pairs));
     const NumberRuns runs(joined.take(most_packed_triangles));
     if ((runs.firsts & 1) == 0) return false;
     if (head.bytes_of_numbers != PackedLeafHead::bytes_of(runs.count() - 1, head.number_bits)) return false;
@@ -139,7 +139,7 @@ class QuantizedCheck {
 
   bool has_allowed_form(const PackedLeafHead& head) const {
     if ((facts_.leaf_forms & tight_leaves) != 0) return true;
-    return 2 * head.pairs == most_packed_triangles && std::ranges::none_of(head.codes, PackedLeafHead::repeats);
+    return head.pairs == PackedLeafHead::all_pairs && std::ranges::none_of(head.codes, PackedLeafHead::repeats);
   }
 
   /// Whether what axes that repeat begin with lies within the words, and has no corner that is not there.
@@ -157,7 +157,7 @@ class QuantizedCheck {
 
   /// Those that are missing are points, and have no number. The first is there: its number must not look like a flag.
   bool are_sound_triangles(const std::uint32_t* words, const PackedLeafHead& head, const NumberRuns& runs) const {
-    PackedBits numbers(words, 8 * head.begin_of_numbers());
+    PackedBits numbers(words, 8 * PackedLeafHead::begin_of_numbers(head.pairs));
     std::uint64_t number = words[1];
     for (std::uint32_t i = 0; i < most_packed_triangles; ++i) {
       std::uint32_t corner[3] = {};
