@@ -81,9 +81,9 @@ const std::vector<Preset>& presets() {
       {"best", "spatial(alpha=0.001, bins=8, block=4) > reinsert > optimal-collapse(8) > wide(8)",
        "fewest tests per ray; slow to build",
        "spatial(alpha=0.001, bins=8, leaf=8, block=8) > reinsert > optimal-collapse(16, leaf=8, block=8) > wide(16)"},
-      {"compact", "ploc(block=4, run=4) > reinsert > optimal-collapse(8, leaf=8, block=8) > compressed(8, bytes=26)",
+      {"compact", "ploc(block=4, run=4) > reinsert > optimal-collapse(8, leaf=8, block=8) > compressed(8, bytes=22)",
        "least memory, slower rays; the scene must outlive the structure",
-       "ploc(leaf=8, block=8, run=8) > reinsert > optimal-collapse(16, leaf=8, block=8) > compressed(16, bytes=26)"},
+       "ploc(leaf=8, block=8, run=8) > reinsert > optimal-collapse(16, leaf=8, block=8) > compressed(16, bytes=22)"},
   };
   return all;
 }

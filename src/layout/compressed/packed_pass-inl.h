@@ -42,7 +42,9 @@ class PassBlocks<QuantizedStore<Node, N>> {
     if (HWY_UNLIKELY(view.tight)) return unpack_tight(slots, view, list);
     for (std::uint32_t i = 0; i < packed_; ++i) {
       words_[i] = words_of(view, slots.at(list.offsets[i]));
-      unpack<false>(i, words_[i]);
+      more_ |= words_[i][0];
+      PackedCorners<RayPair::D, false> corners(words_[i]);
+      for (auto& of_axis : corners_[i]) store_next(corners, of_axis);
     }
   }
   template <class Keep>
@@ -78,20 +80,25 @@ class PassBlocks<QuantizedStore<Node, N>> {
   HWY_INLINE bool is_packed(std::uint32_t i) const { return i < packed_; }
 
   template <bool Tight>
-  HWY_INLINE void unpack(std::uint32_t i, const std::uint32_t* words) {
-    more_ |= words[0];
-    PackedCorners<RayPair::D, Tight> corners(words);
-    for (auto& of_axis : corners_[i]) {
-      corners.next([&](std::uint32_t, hn::Vec<RayPair::D> coordinates)
-                       HWY_ATTR { hn::Store(coordinates, RayPair::D(), of_axis); });
-    }
+  static HWY_INLINE void store_next(PackedCorners<RayPair::D, Tight>& corners, float* out) {
+    corners.next([&](std::uint32_t, hn::Vec<RayPair::D> coordinates)
+                     HWY_ATTR { hn::Store(coordinates, RayPair::D(), out); });
   }
-  HWY_NOINLINE void unpack_tight(const Slots& slots, const WideView& view, const SlotList& list) {
-    for (std::uint32_t i = 0; i < packed_; ++i) {
-      const auto* const words = words_of(view, slots.at(list.offsets[i]));
-      unpack<true>(i, words);
-      spread_[i].take(words);
+
+  /// In two loops, each of which has all that it needs in registers.
+  HWY_NOINLINE void unpack_tight(const Slots slots, const WideView view, const SlotList& list) {
+    const std::uint32_t* tight[most_in_flight + 1];
+    const std::uint32_t size = packed_;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      tight[i] = words_of(view, slots.at(list.offsets[i]));
+      more_ |= tight[i][0];
+      spread_[i].take(tight[i]);
       words_[i] = spread_[i].words;
+    }
+    for (std::uint32_t i = 0; i < size; ++i) {
+      PackedCorners<RayPair::D, true> corners(tight[i]);
+#pragma GCC unroll 1  // three times both ways to keep an axis do not fit into registers
+      for (auto& of_axis : corners_[i]) store_next(corners, of_axis);
     }
   }
 
