@@ -72,6 +72,7 @@ class PassBlocks<QuantizedStore<Node, N>> {
     const std::uint32_t word = is_packed(i) ? words_[i][0] : blocks_[i].primitives[0];
     return (word & more_blocks) != 0;
   }
+  HWY_INLINE std::span<const std::uint32_t> waiting() const { return std::span(waiting_).first(waits_); }
 
  private:
   static HWY_INLINE const std::uint32_t* words_of(const WideView& view, const Slot& slot) {
@@ -115,31 +116,53 @@ class PassBlocks<QuantizedStore<Node, N>> {
       packed += is ? 1 : 0;
       named += is ? 0 : 1;
     }
-    if (named == 0) {
-      list.repeat_last();
-      return (packed + 1) & ~1u;
+    list.size = packed;
+    for (std::uint32_t i = 0; i < named; ++i) {
+      if (!view.out_of_cache || named >= enough_named || fetch(view, slots.at(offsets[i])))
+        list.add(offsets[i]);
+      else
+        waiting_[waits_++] = offsets[i];
     }
-    std::copy_n(offsets, named, list.offsets + packed);
-    list.repeat_last();
+    if (list.size != 0) list.repeat_last();
+    if (list.size == packed) return (packed + 1) & ~1u;
     gather(slots, view, list, packed);
     return packed;
   }
 
-  /// From the i-th ray on. What a step needs is fetched for all before the next begins: first the triangles' vertex
-  /// numbers, then the vertices.
+  /// So many rays of a pass whose leaves name triangles have theirs fetched at once. Fewer would wait for one another,
+  /// and come again instead while it is under way.
+  static constexpr std::uint32_t enough_named = 8;
+  /// Fetches what a leaf's triangles need next: their vertex numbers, then the vertices. Returns whether that was all.
+  static HWY_INLINE bool fetch(const WideView& view, Slot& slot) {
+    if (slot.fetched == 2) return true;
+    std::uint32_t names[8];
+    load_names(words_of(view, slot), names);
+    if (slot.fetched++ == 0)
+      fetch_triangles(view, names);
+    else
+      fetch_vertices(view, names);
+    return false;
+  }
+  static HWY_INLINE void fetch_triangles(const WideView& view, const std::uint32_t* names) {
+    for (int lane = 0; lane < 8; ++lane) __builtin_prefetch(&view.triangles[names[lane]]);
+  }
+  static HWY_INLINE void fetch_vertices(const WideView& view, const std::uint32_t* names) {
+    for (int lane = 0; lane < 8; ++lane) {
+      for (const std::uint32_t vertex : view.triangles[names[lane]]) __builtin_prefetch(&view.positions[vertex]);
+    }
+  }
+
+  /// From the i-th ray on. What a step needs is fetched for all before the next begins.
   HWY_INLINE void gather(const Slots& slots, const WideView& view, const SlotList& list, std::uint32_t begin) {
     const std::uint32_t end = (list.size + 1) & ~1u;
     int count[most_in_flight + 1];
     for (std::uint32_t i = begin; i < end; ++i) {
-      std::uint32_t* const names = blocks_[i].primitives;
-      count[i] = load_names(words_of(view, slots.at(list.offsets[i])), names);
-      for (int lane = 0; lane < 8; ++lane) __builtin_prefetch(&view.triangles[names[lane]]);
+      Slot& slot = slots.at(list.offsets[i]);
+      slot.fetched = 0;
+      count[i] = load_names(words_of(view, slot), blocks_[i].primitives);
+      fetch_triangles(view, blocks_[i].primitives);
     }
-    for (std::uint32_t i = begin; i < end; ++i) {
-      for (const std::uint32_t name : blocks_[i].primitives) {
-        for (const std::uint32_t vertex : view.triangles[name]) __builtin_prefetch(&view.positions[vertex]);
-      }
-    }
+    for (std::uint32_t i = begin; i < end; ++i) fetch_vertices(view, blocks_[i].primitives);
     for (std::uint32_t i = begin; i < end; ++i) {
       gather_vertices(view, count[i], blocks_[i]);
       blocks_[i].primitives[0] |= count[i] > 8 ? more_blocks : 0;
@@ -164,7 +187,8 @@ class PassBlocks<QuantizedStore<Node, N>> {
   SpreadHead spread_[most_in_flight + 1];  // of tight leaves
   alignas(64) float corners_[most_in_flight + 1][3][16];
   LeafBlock<8> blocks_[most_in_flight + 1];  // of leaves that only name triangles
-  std::uint32_t packed_ = 0, more_ = 0;
+  std::uint32_t waiting_[most_in_flight];
+  std::uint32_t packed_ = 0, more_ = 0, waits_ = 0;
 };
 
 #endif  // HWY_TARGET <= HWY_AVX3

@@ -7,6 +7,7 @@
 #define BOXWOOD_LAYOUT_SIMD_LEAF_STEPS_INL_H
 #endif
 
+#include <span>
 #include <type_traits>
 
 #include "layout/simd/single-inl.h"
@@ -136,6 +137,8 @@ class PassBlocks {
   /// Whether the leaf of any ray so far, or of the i-th, has more blocks.
   HWY_INLINE bool any_goes_on() const { return (more_ & more_blocks) != 0; }
   HWY_INLINE bool goes_on(std::uint32_t i) const { return (blocks_[i]->primitives[0] & more_blocks) != 0; }
+  /// Rays that were in the list but have to come again, since their leaves are not there yet.
+  HWY_INLINE std::span<const std::uint32_t> waiting() const { return {}; }
 
  private:
   HWY_INLINE const LeafBlock<8>& get(const WideView& view, const Slot& slot, std::uint32_t i) {
@@ -156,13 +159,17 @@ HWY_INLINE WideReference& reference_of(WideReference& reference) { return refere
 
 template <class Store>
 struct LeafSteps<Store, 8> {
-  /// Has a ray come to the next block of its leaf as it comes to leaves: on its stack, right above the top, is still
-  /// what the leaf was taken from.
+  /// Has a ray come to its leaf again: on its stack, right above the top, still is what the leaf was taken from.
+  template <class Entry>
+  static HWY_INLINE Entry& push_again(Slot& slot) {
+    auto* const taken = top_of<Entry>(slot);
+    slot.top = taken + 1;
+    return *taken;
+  }
+  /// Has it come to the next block of its leaf as it comes to leaves.
   template <class Entry>
   static HWY_INLINE void push_next_block(const WideView& view, Slot& slot) {
-    auto* const taken = top_of<Entry>(slot);
-    reference_of(*taken) = Store::next_block(view, slot.next);
-    slot.top = taken + 1;
+    reference_of(push_again<Entry>(slot)) = Store::next_block(view, slot.next);
   }
 
   /// The best of what was found for one ray, the i-th.
@@ -196,9 +203,12 @@ struct LeafSteps<Store, 8> {
       const std::uint32_t ray = hits.found[i];
       keep_best(leaves, hits, ray, hits.lanes[i], slots.at(list.offsets[ray]));
     }
-    if (HWY_LIKELY(!leaves.any_goes_on())) return;
-    for (std::uint32_t i = 0; i < list.size; ++i) {
+    for (std::uint32_t i = 0; leaves.any_goes_on() && i < list.size; ++i) {
       if (leaves.goes_on(i)) push_next_block<StackEntry>(view, slots.at(list.offsets[i]));
+    }
+    for (const std::uint32_t offset : leaves.waiting()) {
+      push_again<StackEntry>(slots.at(offset));
+      list.add(offset);
     }
   }
   template <class Decide>
@@ -216,6 +226,12 @@ struct LeafSteps<Store, 8> {
       };
       go_on(i, a, (bits & 0xff) != 0);
       if (i + 1 < list.size) go_on(i + 1, b, (bits & 0xff00) != 0);
+    }
+    for (const std::uint32_t offset : leaves.waiting()) {
+      Slot& slot = slots.at(offset);
+      push_again<WideReference>(slot);
+      decide(list.size, slot, false);
+      list.add(offset);
     }
   }
 };

@@ -41,7 +41,7 @@ struct alignas(64) Slot {
   float t_near;
   float t_limit;              // t_far or the best hit so far
   std::uint16_t near_row[3];  // byte offsets of the near planes in a node
-  std::uint16_t unused;
+  std::uint16_t fetched;      // steps that the triangles of its leaf are under way (../compressed/packed_pass-inl.h)
   WideReference next;
   void* top;  // behind the topmost entry of the stack
 
