@@ -36,9 +36,8 @@ struct NumberRuns {
 ///    25  bytes that hold numbers, 5 bits
 ///    30  1 for `packed_leaf`; 1 when more triangles of the leaf follow, packed likewise
 ///    32  the number of the first triangle, which is the least
-///    64  which corner is the first of each triangle, 4 bits each, a byte per pair; of a missing one 0; then the
-///    second,
-///        the third
+///    64  which corner is the first of each triangle, 4 bits each, a byte per pair; of missing ones 0; then which is
+///        the second, the third
 ///        the base of x, y, z: the upper halves of words of which the 16 bits before are the lower ones
 ///        of eight triangles a bit each: whether its number is one more than that of the one before; of missing ones 1
 ///        of each triangle whose number is not one more, but the first, its number less the least one
