@@ -56,13 +56,29 @@ OwnCorners::OwnCorners(std::span<const std::uint32_t> names, const Mesh& mesh, b
   }
   measure_numbers();
   measure_axes(no_axis);
-  const OwnCorners unsorted = *this;
-  for (std::size_t axis = 0; tight_ && axis < 3; ++axis) {
-    OwnCorners sorted = unsorted;
-    sorted.sort_corners(axis);
-    sorted.measure_axes(axis);
-    if (sorted.words() < words()) *this = sorted;
+  const std::size_t axis = tight_ ? most_repeated() : no_axis;
+  if (axis == no_axis) return;
+  OwnCorners sorted = *this;
+  sorted.sort_corners(axis);
+  sorted.measure_axes(axis);
+  if (sorted.words() < words()) *this = sorted;
+}
+
+/// The axis on which corners have the fewest values; none where no value repeats.
+std::size_t OwnCorners::most_repeated() const {
+  std::size_t out = no_axis;
+  std::uint32_t least = corners_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto values = std::span(corner_[axis]).first(corners_);
+    std::uint32_t distinct = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      distinct += std::count(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) == 0 ? 1 : 0;
+    }
+    if (distinct >= least) continue;
+    out = axis;
+    least = distinct;
   }
+  return out;
 }
 
 bool OwnCorners::add(std::uint32_t name, const Mesh& mesh) {
@@ -108,7 +124,7 @@ void OwnCorners::measure_axes(std::size_t repeated) {
     auto values = std::span(kept).first(corners_);
     const bool repeats = axis == repeated;
     if (repeats) {
-      values = values.first(corners_ - std::ranges::unique(values).size());
+      values = {values.begin(), std::unique(values.begin(), values.end())};
       if (values.front() == 0) values = values.subspan(1);
     }
     const std::uint32_t upper = values.empty() ? 0 : (std::ranges::min(values) - before) & 0xffff0000;

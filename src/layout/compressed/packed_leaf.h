@@ -128,6 +128,7 @@ class OwnCorners {
 
   bool add(std::uint32_t name, const Mesh& mesh);
   void measure_numbers();
+  std::size_t most_repeated() const;
   void measure_axes(std::size_t repeated);
   void sort_corners(std::size_t axis);
   std::uint32_t pairs() const { return ((tight_ ? triangles_ : most_packed_triangles) + 1) / 2; }
