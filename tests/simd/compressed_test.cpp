@@ -145,7 +145,7 @@ TEST_P(CompressedOf, Answers_HaveTheBitsOfBruteForce) {
   const Tree tree = test_tree(mesh, c.width, c.leaf);
   const std::size_t bytes =
       c.width == 8 ? bytes_for<QuantizedNode8>(c.leaves, tree, mesh) : bytes_for<QuantizedNode16>(c.leaves, tree, mesh);
-  const auto layout = encode_compressed(c.width, tree, mesh, bytes);
+  const auto layout = encode_compressed(c.width, tree, mesh, bytes, c.leaves != Leaves::by_default);
   const std::vector<Ray> rays = test_rays(scene);
   std::vector<Hit> expected(rays.size()), single(rays.size()), batch(rays.size()), counted(rays.size());
   BruteForce(scene).closest_hits(rays, expected);
