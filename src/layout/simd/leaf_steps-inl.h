@@ -18,18 +18,19 @@ namespace boxwood {
 namespace HWY_NAMESPACE {
 #if HWY_MAX_BYTES >= 32
 
-/// All blocks of the ray's leaf from number `first` on.
+/// All blocks of the ray's leaf.
 template <class Store>
-HWY_INLINE void closest_in_blocks(const WideView& view, std::size_t first, Slot& slot) {
+HWY_INLINE void closest_in_blocks(const WideView& view, Slot& slot) {
   typename Store::BlockBuffer buffer;
   bool more = true;
-  for (std::size_t i = first; more; ++i) {
+  for (std::size_t i = 0; more; ++i) {
     const auto& block = Store::block(view, slot.next, i, buffer);
     if (closest_in_block(block, slot.leaf, slot.t_near, slot.t_limit, slot.best)) slot.t_limit = slot.best.t + 0.0f;
     more = (block.primitives[0] & more_blocks) != 0;
   }
 }
 
+/// From block number `first` on.
 template <class Store>
 HWY_INLINE bool any_in_blocks(const WideView& view, std::size_t first, const Slot& slot) {
   typename Store::BlockBuffer buffer;
@@ -46,7 +47,7 @@ HWY_INLINE bool any_in_blocks(const WideView& view, std::size_t first, const Slo
 template <class Store, int L = Store::triangles>
 struct LeafSteps {
   static HWY_INLINE void closest_pass(const Slots& slots, const WideView& view, const SlotList& list) {
-    for (std::uint32_t i = 0; i < list.size; ++i) closest_in_blocks<Store>(view, 0, slots.at(list.offsets[i]));
+    for (std::uint32_t i = 0; i < list.size; ++i) closest_in_blocks<Store>(view, slots.at(list.offsets[i]));
   }
   /// Calls decide(number in the list, slot, whether it is blocked) for each ray.
   template <class Decide>
